@@ -1,0 +1,53 @@
+# Every target sets up what it needs: a private .venv, built once and again only when its sources change.
+PYTHON ?= python3
+BIN := .venv/bin
+CARGO := cargo
+WORKSPACE := --manifest-path shared/core/Cargo.toml
+SETUP := .venv/.setup-stamp
+RUST := $(shell find shared/core -name target -prune -o \( -name '*.rs' -o -name Cargo.toml \) -print)
+
+help:
+	@sed -n 's/^## //p' Makefile
+
+## make setup   the private .venv with everything in it (every other target does this itself)
+setup: $(SETUP)
+
+$(SETUP): pyproject.toml MANIFEST.in .ci/setup .ci/python-constraints.txt .ci/cargo-versions.txt $(RUST)
+	@bash .ci/setup $(PYTHON) && touch $@
+
+## make demo    a server and two clients, films and a verdict in out/demo
+demo: $(SETUP)
+	@$(BIN)/kuglice demo
+
+## make test    cargo test (debug build) and pytest
+test: $(SETUP)
+	$(CARGO) test $(WORKSPACE) --workspace --exclude kuglice-python
+	$(BIN)/pytest
+
+## make lint    formatting, types, stubs, docker files: nothing is changed, only judged
+lint: $(SETUP)
+	@bash .ci/lint
+
+## make bench   ns per ball-step, peers in the same run
+bench: $(SETUP)
+	@$(BIN)/kuglice bench
+
+## make chart   all figures of the lab
+chart: $(SETUP)
+	@$(BIN)/kuglice chart
+
+## make core    rebuild the compiled module only
+core:
+	cargo build --release --quiet --manifest-path shared/core/Cargo.toml -p kuglice-python
+	cp shared/core/target/release/libkuglice_core.so shared/kuglice/_core.abi3.so
+
+## make golden  new golden hashes; refused unless STEP_VERSION has changed (tests/determinism/mint.py)
+golden: $(SETUP)
+	$(BIN)/python tests/determinism/mint.py
+
+## make clean   remove everything that make has made
+clean:
+	rm -rf .venv out build dist shared/core/target shared/kuglice/_core*.so shared/*.egg-info *.egg-info
+	find . -name __pycache__ -prune -exec rm -rf {} + ; rm -rf .mypy_cache .ruff_cache .pytest_cache .hypothesis
+
+.PHONY: help setup demo test lint bench chart core golden clean
