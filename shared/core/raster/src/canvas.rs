@@ -105,18 +105,6 @@ pub(crate) fn blend(pixel: &mut [u8; 3], colour: [u8; 3], weight: u32) {
     }
 }
 
-/// One colour over a whole span.
-#[inline]
-pub(crate) fn fill(span: &mut [[u8; 3]], colour: [u8; 3], opacity: u8) {
-    if opacity == 255 {
-        span.fill(colour);
-    } else {
-        for pixel in span {
-            blend(pixel, colour, u32::from(opacity));
-        }
-    }
-}
-
 /// The weight of a pixel of which a shape of that opacity covers that part.
 #[inline]
 pub(crate) fn weight(coverage: f64, opacity: u8) -> u32 {

@@ -1,8 +1,9 @@
 //! Filled discs: the balls.
 
 use crate::Colour;
-use crate::canvas::{Canvas, blend, fill, weight};
-use crate::coverage::{REACH, SMALL, disc, small_disc_row};
+use crate::block::{BYTES, Lanes, PIXELS, blend as blend_block, coverage, round};
+use crate::canvas::{Canvas, blend, weight};
+use crate::coverage::{REACH, SMALL, small_disc_row};
 
 /// How the colour runs over a disc. The middle of a disc always has its own colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -34,9 +35,9 @@ pub fn draw_discs(
         if radius < SMALL {
             draw_small(canvas, x, y, radius, colour, opacity);
         } else if shading == Shading::Flat {
-            draw_flat(canvas, x, y, radius, colour, opacity);
+            draw_large(canvas, [x, y], radius, opacity, &Flat::new(colour, opacity));
         } else {
-            draw_ball(canvas, x, y, radius, colour, opacity);
+            draw_large(canvas, [x, y], radius, opacity, &Ball::new(colour, radius));
         }
     }
 }
@@ -51,50 +52,43 @@ fn draw_small(canvas: &mut Canvas, x: f64, y: f64, radius: f64, colour: [u8; 3],
     }
 }
 
-/// Columns of one row that a disc may touch, and among them those that it covers wholly.
-struct Span {
-    outer: std::ops::Range<usize>,
-    inner: std::ops::Range<usize>,
+/// How a disc is coloured, eight pixels at a time.
+trait Paint {
+    /// The one colour of pixels that are wholly inside, if there is one.
+    fn plain(&self) -> Option<[u8; 3]>;
+
+    /// Colours of pixels in a row, the first centred at (`x`, `y`) from the disc's centre.
+    fn block(&self, x: f32, y: f32) -> [f32; BYTES];
 }
 
-impl Span {
-    #[inline]
-    fn new(canvas: &Canvas, x: f64, dy: f64, radius: f64) -> Self {
-        let reach = (radius + REACH) * (radius + REACH) - dy * dy;
-        let half = reach.max(0.0).sqrt();
-        // Half a pixel less on each side: a pixel counts from its centre.
-        let outer = canvas.columns(x - half - 0.5, x + half + 0.5);
-        let core = (radius - REACH) * (radius - REACH) - dy * dy;
-        if core <= 0.0 {
-            return Self {
-                inner: outer.end..outer.end,
-                outer,
-            };
-        }
-        let half = core.sqrt();
-        let start = ((x - half - 0.5).ceil().max(0.0) as usize).clamp(outer.start, outer.end);
-        let end = (((x + half - 0.5).floor() + 1.0).max(0.0) as usize).clamp(start, outer.end);
+struct Flat {
+    plain: Option<[u8; 3]>,
+    block: [f32; BYTES],
+}
+
+impl Flat {
+    fn new(colour: [u8; 3], opacity: u8) -> Self {
+        let block = std::array::from_fn(|at| f32::from(colour[at % 3]));
         Self {
-            outer,
-            inner: start..end,
+            plain: (opacity == 255).then_some(colour),
+            block,
         }
     }
 }
 
-fn draw_flat(canvas: &mut Canvas, x: f64, y: f64, radius: f64, colour: [u8; 3], opacity: u8) {
-    for row in canvas.rows(y - radius, y + radius) {
-        let dy = row as f64 + 0.5 - y;
-        let Span { outer, inner } = Span::new(canvas, x, dy, radius);
-        let pixels = canvas.row(row);
-        fill(&mut pixels[inner.clone()], colour, opacity);
-        for column in (outer.start..inner.start).chain(inner.end..outer.end) {
-            let part = disc(column as f64 + 0.5 - x, dy, radius);
-            blend(&mut pixels[column], colour, weight(part, opacity));
-        }
+impl Paint for Flat {
+    #[inline]
+    fn plain(&self) -> Option<[u8; 3]> {
+        self.plain
+    }
+
+    #[inline]
+    fn block(&self, _x: f32, _y: f32) -> [f32; BYTES] {
+        self.block
     }
 }
 
-/// The light on a ball, from the top left. Chosen by eye.
+/// The light on a ball, from the top left, in radii of the ball. Chosen by eye.
 mod light {
     pub const X: f32 = -0.10;
     pub const Y: f32 = -0.17;
@@ -105,43 +99,104 @@ mod light {
     pub const SPOT_WIDTH: f32 = 0.42;
 }
 
-/// The colour of a ball at (`u`, `v`) radii from its middle.
-#[inline]
-fn lit(base: [f32; 3], u: f32, v: f32) -> [u8; 3] {
-    let square = u * u + v * v;
-    let factor = 1.0 + light::X * u + light::Y * v - light::RIM * square * square;
-    let (a, b) = (u - light::SPOT_X, v - light::SPOT_Y);
-    let spot = (1.0 - (a * a + b * b) * (1.0 / (light::SPOT_WIDTH * light::SPOT_WIDTH))).max(0.0);
-    let spot = light::SPOT * spot * spot;
-    base.map(|channel| (channel * factor + spot + 0.5) as u8)
+struct Ball {
+    colour: [f32; 3],
+    scale: f32,
 }
 
-fn draw_ball(canvas: &mut Canvas, x: f64, y: f64, radius: f64, colour: [u8; 3], opacity: u8) {
-    let base = colour.map(f32::from);
-    let scale = 1.0 / radius;
+impl Ball {
+    fn new(colour: [u8; 3], radius: f64) -> Self {
+        Self {
+            colour: colour.map(f32::from),
+            scale: (1.0 / radius) as f32,
+        }
+    }
+}
+
+impl Paint for Ball {
+    #[inline]
+    fn plain(&self) -> Option<[u8; 3]> {
+        None
+    }
+
+    #[inline]
+    fn block(&self, x: f32, y: f32) -> [f32; BYTES] {
+        let v = y * self.scale;
+        let (mut factor, mut spot) = ([0.0; PIXELS], [0.0; PIXELS]);
+        for lane in 0..PIXELS {
+            let u = (x + lane as f32) * self.scale;
+            let square = u * u + v * v;
+            factor[lane] = 1.0 + light::X * u + light::Y * v - light::RIM * square * square;
+            let (a, b) = (u - light::SPOT_X, v - light::SPOT_Y);
+            const SHARP: f32 = 1.0 / (light::SPOT_WIDTH * light::SPOT_WIDTH);
+            let near = (1.0 - (a * a + b * b) * SHARP).max(0.0);
+            spot[lane] = light::SPOT * near * near;
+        }
+        std::array::from_fn(|at| {
+            let lit = self.colour[at % 3] * factor[at / 3] + spot[at / 3];
+            lit.min(255.0)
+        })
+    }
+}
+
+fn draw_large(canvas: &mut Canvas, [x, y]: [f64; 2], radius: f64, opacity: u8, paint: &impl Paint) {
+    let part = f32::from(opacity) / 255.0;
     for row in canvas.rows(y - radius, y + radius) {
         let dy = row as f64 + 0.5 - y;
-        let v = (dy * scale) as f32;
-        let Span { outer, inner } = Span::new(canvas, x, dy, radius);
+        // Half a pixel more: a pixel counts from its centre.
+        let half = chord(radius + REACH, dy) + 0.5;
+        let outer = canvas.columns(x - half, x + half);
+        let core = chord(radius - REACH, dy);
+        let inner = if radius - REACH > dy.abs() {
+            -core..core
+        } else {
+            0.0..0.0
+        };
         let pixels = canvas.row(row);
-        let mut u = ((inner.start as f64 + 0.5 - x) * scale) as f32;
-        for pixel in &mut pixels[inner.clone()] {
-            let colour = lit(base, u, v);
-            if opacity == 255 {
-                *pixel = colour;
-            } else {
-                blend(pixel, colour, u32::from(opacity));
-            }
-            u += scale as f32;
-        }
-        for column in (outer.start..inner.start).chain(inner.end..outer.end) {
+        let mut column = outer.start;
+        while column < outer.end {
             let dx = column as f64 + 0.5 - x;
-            let colour = lit(base, (dx * scale) as f32, v);
-            blend(
-                &mut pixels[column],
-                colour,
-                weight(disc(dx, dy, radius), opacity),
-            );
+            let end = (column + PIXELS).min(pixels.len());
+            if inner.contains(&dx) && opacity == 255 {
+                if let Some(colour) = paint.plain() {
+                    let end = ((x + core + 0.5).max(0.0) as usize).clamp(column + 1, outer.end);
+                    pixels[column..end].fill(colour);
+                    column = end;
+                    continue;
+                }
+                if inner.contains(&(dx + (PIXELS - 1) as f64)) && end - column == PIXELS {
+                    let bytes = paint.block(dx as f32, dy as f32).map(round);
+                    pixels[column..end]
+                        .as_flattened_mut()
+                        .copy_from_slice(&bytes);
+                    column = end;
+                    continue;
+                }
+            }
+            let colours = paint.block(dx as f32, dy as f32);
+            let weights =
+                coverage(dx as f32, dy as f32, radius as f32).map(|covered| covered * part);
+            draw_block(&mut pixels[column..end], &colours, &weights);
+            column = end;
         }
+    }
+}
+
+#[inline]
+fn chord(radius: f64, dy: f64) -> f64 {
+    (radius * radius - dy * dy).max(0.0).sqrt()
+}
+
+#[inline]
+fn draw_block(pixels: &mut [[u8; 3]], colours: &[f32; BYTES], weights: &Lanes) {
+    if let Ok(block) = <&mut [u8; BYTES]>::try_from(pixels.as_flattened_mut()) {
+        blend_block(block, colours, weights);
+    } else {
+        // The last pixels of a row.
+        let mut block = [0; BYTES];
+        let bytes = pixels.as_flattened_mut();
+        block[..bytes.len()].copy_from_slice(bytes);
+        blend_block(&mut block, colours, weights);
+        bytes.copy_from_slice(&block[..bytes.len()]);
     }
 }

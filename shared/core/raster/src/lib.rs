@@ -7,6 +7,7 @@
 
 #![forbid(unsafe_code)]
 
+mod block;
 mod canvas;
 mod coverage;
 mod disc;
