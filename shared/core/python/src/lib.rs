@@ -1,0 +1,66 @@
+//! kuglice._core: the step and the rasteriser for Python. Conversion only, no logic.
+
+mod errors;
+mod lease;
+mod model;
+mod raster;
+mod rules;
+mod world;
+
+use kuglice_step::{
+    INPUT_BYTES, InputKind, NO_BALL, STEP_VERSION, broadphase, contacts, force, integrator, random,
+};
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+
+/// Numbers `first .. first + count` of a stream, in [0, 1).
+#[pyfunction]
+fn random_uniform(
+    py: Python<'_>,
+    seed: u64,
+    stream: u64,
+    first: u64,
+    count: usize,
+) -> Bound<'_, PyArray1<f64>> {
+    let numbers = (first..)
+        .take(count)
+        .map(|counter| random::uniform(seed, stream, counter));
+    PyArray1::from_iter(py, numbers)
+}
+
+#[pymodule]
+fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    let py = module.py();
+    module.add("STEP_VERSION", STEP_VERSION)?;
+    module.add(
+        "INTEGRATORS",
+        PyTuple::new(py, integrator::TABLE.iter().map(|entry| entry.name))?,
+    )?;
+    module.add(
+        "CONTACTS",
+        PyTuple::new(py, contacts::TABLE.iter().map(|entry| entry.name))?,
+    )?;
+    module.add(
+        "BROADPHASES",
+        PyTuple::new(py, broadphase::TABLE.iter().map(|entry| entry.name))?,
+    )?;
+    let forces = PyDict::new(py);
+    for kind in &force::KINDS {
+        forces.set_item(kind.name, PyTuple::new(py, kind.numbers)?)?;
+    }
+    module.add("FORCES", forces)?;
+    module.add(
+        "INPUT_KINDS",
+        PyTuple::new(py, InputKind::ALL.map(InputKind::name))?,
+    )?;
+    module.add("INPUT_BYTES", INPUT_BYTES)?;
+    module.add("NO_BALL", NO_BALL)?;
+    module.add_class::<rules::Rules>()?;
+    module.add_class::<model::Model>()?;
+    module.add_class::<world::World>()?;
+    module.add_class::<lease::Lease>()?;
+    module.add_function(wrap_pyfunction!(random_uniform, module)?)?;
+    module.add_function(wrap_pyfunction!(world::recording, module)?)?;
+    raster::register(module)
+}

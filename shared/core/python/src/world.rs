@@ -1,0 +1,293 @@
+//! kuglice._core.World.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use kuglice_step::{NewBall, Recording, Vec2, read_inputs};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+use crate::errors::{named, raise};
+use crate::lease::Lease;
+use crate::model::Model;
+use crate::rules::Rules;
+
+/// A state and the step that moves it.
+#[pyclass(module = "kuglice._core")]
+pub struct World {
+    pub inner: kuglice_step::World,
+    /// How often the arrays are lent: whatever would move or free them is refused until the last one is back.
+    pub lent: Arc<AtomicUsize>,
+}
+
+impl World {
+    fn own(inner: kuglice_step::World) -> World {
+        World {
+            inner,
+            lent: Arc::default(),
+        }
+    }
+
+    fn check_not_lent(&self, py: Python<'_>) -> PyResult<()> {
+        match self.lent.load(Ordering::Acquire) {
+            0 => Ok(()),
+            lent => Err(named(
+                py,
+                "LentError",
+                &format!(
+                    "the world's arrays are lent by {lent} views; a world can change when there are 0: \
+                     leave the `with world.view()` block and drop the arrays taken from it"
+                ),
+            )),
+        }
+    }
+}
+
+fn pairs_to_array<'py, T: numpy::Element + Copy>(
+    py: Python<'py>,
+    rows: &[[T; 2]],
+) -> Bound<'py, PyArray2<T>> {
+    let flat = PyArray1::from_slice(py, rows.as_flattened());
+    flat.reshape([rows.len(), 2]).expect("two numbers a row")
+}
+
+fn vectors<'py>(py: Python<'py>, vectors: &[Vec2]) -> Bound<'py, PyArray2<f64>> {
+    let rows: Vec<[f64; 2]> = vectors.iter().map(|v| [v.x, v.y]).collect();
+    pairs_to_array(py, &rows)
+}
+
+#[pymethods]
+impl World {
+    #[new]
+    #[pyo3(signature = (rules, model, *, position, velocity, radius, mass))]
+    fn new(
+        py: Python<'_>,
+        rules: &Rules,
+        model: &Model,
+        position: PyReadonlyArray2<'_, f64>,
+        velocity: PyReadonlyArray2<'_, f64>,
+        radius: PyReadonlyArray1<'_, f64>,
+        mass: PyReadonlyArray1<'_, f64>,
+    ) -> PyResult<World> {
+        let count = radius.len();
+        for (name, shape) in [("position", position.shape()), ("velocity", velocity.shape())] {
+            if shape != [count, 2] {
+                return Err(named(
+                    py,
+                    "SceneError",
+                    &format!("{name} has shape {shape:?}, it must be [{count}, 2]"),
+                ));
+            }
+        }
+        if mass.len() != count {
+            return Err(named(
+                py,
+                "SceneError",
+                &format!("mass has {} numbers, it must have {count}", mass.len()),
+            ));
+        }
+        let (position, velocity) = (position.as_array(), velocity.as_array());
+        let (radius, mass) = (radius.as_array(), mass.as_array());
+        let balls: Vec<NewBall> = (0..count)
+            .map(|i| NewBall {
+                position: Vec2::new(position[[i, 0]], position[[i, 1]]),
+                velocity: Vec2::new(velocity[[i, 0]], velocity[[i, 1]]),
+                radius: radius[i],
+                mass: mass[i],
+            })
+            .collect();
+        let world = kuglice_step::World::new(rules.inner.clone(), model.inner.clone(), &balls);
+        world.map(World::own).map_err(|error| raise(py, &error))
+    }
+
+    #[staticmethod]
+    fn restore(py: Python<'_>, rules: &Rules, model: &Model, data: &[u8]) -> PyResult<World> {
+        let world = kuglice_step::World::restore(rules.inner.clone(), model.inner.clone(), data);
+        world.map(World::own).map_err(|error| raise(py, &error))
+    }
+
+    #[pyo3(signature = (inputs, dt = None))]
+    fn step(&mut self, py: Python<'_>, inputs: &[u8], dt: Option<f64>) -> PyResult<()> {
+        self.check_not_lent(py)?;
+        let inputs = read_inputs(inputs).map_err(|error| raise(py, &error))?;
+        let world = &mut self.inner;
+        py.detach(|| world.step(&inputs, dt))
+            .map_err(|error| raise(py, &error))
+    }
+
+    fn run(&mut self, py: Python<'_>, mut ticks: u64) -> PyResult<()> {
+        // In slices, so that a long run can be interrupted from the keyboard.
+        const SLICE: u64 = 1024;
+        self.check_not_lent(py)?;
+        let world = &mut self.inner;
+        while ticks > 0 {
+            let slice = ticks.min(SLICE);
+            py.detach(|| (0..slice).try_for_each(|_| world.step(&[], None)))
+                .map_err(|error| raise(py, &error))?;
+            py.check_signals()?;
+            ticks -= slice;
+        }
+        Ok(())
+    }
+
+    fn snapshot<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        PyBytes::new(py, &self.inner.snapshot())
+    }
+
+    #[pyo3(name = "clone")]
+    fn copy(&self) -> World {
+        World::own(self.inner.clone())
+    }
+
+    fn copy_from(&mut self, py: Python<'_>, other: PyRef<'_, World>) -> PyResult<()> {
+        self.check_not_lent(py)?;
+        self.inner.copy_from(&other.inner);
+        Ok(())
+    }
+
+    #[getter]
+    fn tick(&self) -> u64 {
+        self.inner.state().tick
+    }
+
+    #[getter]
+    fn time(&self) -> f64 {
+        self.inner.time()
+    }
+
+    #[getter]
+    fn next_id(&self) -> u64 {
+        self.inner.state().next_id
+    }
+
+    #[getter]
+    fn collisions(&self) -> u64 {
+        self.inner.state().counters.collisions
+    }
+
+    #[getter]
+    fn wall_hits(&self) -> u64 {
+        self.inner.state().counters.wall_hits
+    }
+
+    #[getter]
+    fn inputs_applied(&self) -> u64 {
+        self.inner.state().counters.inputs_applied
+    }
+
+    #[getter]
+    fn inputs_ignored(&self) -> u64 {
+        self.inner.state().counters.inputs_ignored
+    }
+
+    #[getter]
+    fn state_hash(&self) -> u64 {
+        self.inner.state_hash()
+    }
+
+    #[getter]
+    fn count(&self) -> usize {
+        self.inner.state().balls.len()
+    }
+
+    #[getter]
+    fn id<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u64>> {
+        PyArray1::from_slice(py, &self.inner.state().balls.id)
+    }
+
+    #[getter]
+    fn position<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        vectors(py, &self.inner.state().balls.position)
+    }
+
+    #[getter]
+    fn velocity<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        vectors(py, &self.inner.state().balls.velocity)
+    }
+
+    #[getter]
+    fn radius<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, &self.inner.state().balls.radius)
+    }
+
+    #[getter]
+    fn mass<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, &self.inner.state().balls.mass)
+    }
+
+    #[getter]
+    fn kinetic_energy(&self) -> f64 {
+        self.inner.kinetic_energy()
+    }
+
+    #[getter]
+    fn potential_energy(&self) -> f64 {
+        self.inner.potential_energy()
+    }
+
+    #[getter]
+    fn momentum(&self) -> (f64, f64) {
+        let Vec2 { x, y } = self.inner.momentum();
+        (x, y)
+    }
+
+    #[getter]
+    fn players(&self) -> Vec<(u32, Option<u64>)> {
+        self.inner
+            .state()
+            .players
+            .iter()
+            .map(|player| (player.client, player.ball))
+            .collect()
+    }
+
+    #[getter]
+    fn held(&self) -> Vec<(u32, &'static str, f64, f64, f64)> {
+        let name = |kind| match kind {
+            kuglice_step::HeldKind::Thrust => "thrust",
+            kuglice_step::HeldKind::Attract => "attract",
+        };
+        let held = self.inner.state().held.iter();
+        held.map(|h| (h.client, name(h.kind), h.vector.x, h.vector.y, h.strength))
+            .collect()
+    }
+
+    fn overlapping<'py>(&mut self, py: Python<'py>) -> Bound<'py, PyArray2<u64>> {
+        let pairs = self.inner.overlapping();
+        let id = &self.inner.state().balls.id;
+        let rows: Vec<[u64; 2]> = pairs
+            .iter()
+            .map(|&(a, b)| [id[a as usize], id[b as usize]])
+            .collect();
+        pairs_to_array(py, &rows)
+    }
+
+    fn nodes<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        let nodes = self.inner.nodes();
+        let flat = PyArray1::from_slice(py, nodes.as_flattened());
+        flat.reshape([nodes.len(), 4]).expect("four numbers a row")
+    }
+
+    fn lend(slf: Bound<'_, World>) -> PyResult<Lease> {
+        Lease::open(slf)
+    }
+}
+
+/// A run as bytes that the example `rerun` of kuglice-step can make again: the world as it is, then inputs per tick.
+#[pyfunction]
+pub fn recording<'py>(
+    py: Python<'py>,
+    world: PyRef<'_, World>,
+    ticks: Vec<Vec<u8>>,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let ticks = ticks
+        .iter()
+        .map(|inputs| read_inputs(inputs))
+        .collect::<Result<_, _>>();
+    let recording = Recording {
+        world: world.inner.clone(),
+        ticks: ticks.map_err(|error| raise(py, &error))?,
+    };
+    Ok(PyBytes::new(py, &recording.to_bytes()))
+}

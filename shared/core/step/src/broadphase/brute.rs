@@ -1,0 +1,49 @@
+//! Every pair. Nothing to go wrong: the judge of the other broadphases, and the fastest for a handful of balls.
+
+use super::{Broadphase, Discs, Pair};
+use crate::Vec2;
+
+#[derive(Default)]
+pub(super) struct Brute {
+    discs: Vec<(Vec2, f64)>,
+}
+
+impl Broadphase for Brute {
+    fn build(&mut self, discs: &Discs<'_>) {
+        self.discs.clear();
+        self.discs.extend(
+            discs
+                .center
+                .iter()
+                .enumerate()
+                .map(|(i, &center)| (center, discs.reach.of(i))),
+        );
+    }
+
+    fn pairs(&mut self, discs: &Discs<'_>, found: &mut Vec<Pair>) {
+        for second in 1..discs.len() {
+            for first in 0..second {
+                if discs.overlap(first, second) {
+                    found.push((first as u32, second as u32));
+                }
+            }
+        }
+    }
+
+    fn relocate(&mut self, index: usize, center: Vec2, reach: f64) {
+        self.discs[index] = (center, reach);
+    }
+
+    fn query(&self, center: Vec2, reach: f64, found: &mut Vec<u32>) {
+        for (index, &(other, far)) in self.discs.iter().enumerate() {
+            let sum = reach + far;
+            if (center - other).square() <= sum * sum * (1.0 + 1e-9) {
+                found.push(index as u32);
+            }
+        }
+    }
+
+    fn nodes(&self) -> Vec<[f64; 4]> {
+        Vec::new()
+    }
+}

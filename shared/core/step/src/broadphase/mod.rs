@@ -1,0 +1,76 @@
+//! Broadphases: which discs overlap. How the pairs are found changes the cost, never the pairs.
+//!
+//! Discs are what balls are to a broadphase: for `overlap` contacts the balls themselves, for `event` contacts
+//! whatever bounds a ball's path over a tick. One file each, one trait, one table; [`brute`](self) is the judge of all.
+
+mod brute;
+mod discs;
+mod loose_quadtree;
+mod morton;
+mod quadtree;
+
+pub use discs::{Discs, Reach};
+
+use crate::Vec2;
+
+/// Indices of two discs, the lower first.
+pub type Pair = (u32, u32);
+
+/// A way to find overlapping discs.
+///
+/// Whatever an implementation keeps from one tick to the next may only make it faster: [`Broadphase::build`] must
+/// leave it as if it were new.
+pub trait Broadphase: Send + Sync {
+    /// Takes in these discs in place of all earlier ones.
+    fn build(&mut self, discs: &Discs<'_>);
+
+    /// Appends every pair of discs that overlap, each once, in any order. The discs are those of the last build.
+    fn pairs(&mut self, discs: &Discs<'_>, found: &mut Vec<Pair>);
+
+    /// Puts disc `index` elsewhere, with another reach.
+    fn relocate(&mut self, index: usize, center: Vec2, reach: f64);
+
+    /// Appends at least every disc that overlaps the one given, each once, in any order.
+    fn query(&self, center: Vec2, reach: f64, found: &mut Vec<u32>);
+
+    /// Rectangles (left, bottom, right, top) of the occupied nodes.
+    fn nodes(&self) -> Vec<[f64; 4]>;
+}
+
+/// What a broadphase may be told about the world.
+#[derive(Clone, Copy, Debug)]
+pub struct Settings {
+    /// The box: left, bottom, right, top.
+    pub root: [f64; 4],
+    /// The smallest node of `quadtree`; None: twice the largest diameter.
+    pub smallest_node: Option<f64>,
+}
+
+/// A registered broadphase.
+pub struct Kind {
+    /// Its name.
+    pub name: &'static str,
+    /// Makes one.
+    pub make: fn(&Settings) -> Box<dyn Broadphase>,
+}
+
+/// All broadphases.
+pub static TABLE: [Kind; 3] = [
+    Kind {
+        name: "brute",
+        make: |_| Box::new(brute::Brute::default()),
+    },
+    Kind {
+        name: "quadtree",
+        make: |settings| Box::new(quadtree::Quadtree::new(settings)),
+    },
+    Kind {
+        name: "loose_quadtree",
+        make: |_| Box::new(loose_quadtree::LooseQuadtree::default()),
+    },
+];
+
+/// How much further than its reach a disc is looked for, so that rounding in a tree's own bounds can lose no pair.
+fn slack(center: Vec2, reach: f64) -> f64 {
+    reach * 1e-9 + (center.x.abs() + center.y.abs()) * (4.0 * f64::EPSILON)
+}

@@ -1,0 +1,174 @@
+//! Little-endian writing and bounded reading, shared by snapshots, rules and recordings.
+
+use crate::{Error, Vec2, hash};
+
+/// Appends numbers to bytes.
+#[derive(Default)]
+pub(crate) struct Writer {
+    bytes: Vec<u8>,
+}
+
+impl Writer {
+    pub(crate) fn new(magic: &[u8; 4], version: u32) -> Writer {
+        let mut writer = Writer::default();
+        writer.bytes.extend_from_slice(magic);
+        writer.u32(version);
+        writer
+    }
+
+    pub(crate) fn u8(&mut self, value: u8) {
+        self.bytes.push(value);
+    }
+
+    pub(crate) fn u32(&mut self, value: u32) {
+        self.bytes.extend_from_slice(&value.to_le_bytes());
+    }
+
+    pub(crate) fn u64(&mut self, value: u64) {
+        self.bytes.extend_from_slice(&value.to_le_bytes());
+    }
+
+    pub(crate) fn f64(&mut self, value: f64) {
+        self.u64(value.to_bits());
+    }
+
+    pub(crate) fn vec2(&mut self, value: Vec2) {
+        self.f64(value.x);
+        self.f64(value.y);
+    }
+
+    pub(crate) fn count(&mut self, count: usize) {
+        self.u64(count as u64);
+    }
+
+    pub(crate) fn bytes(&mut self, bytes: &[u8]) {
+        self.count(bytes.len());
+        self.bytes.extend_from_slice(bytes);
+    }
+
+    pub(crate) fn reserve(&mut self, bytes: usize) {
+        self.bytes.reserve(bytes);
+    }
+
+    /// Ends with a checksum over everything before it.
+    pub(crate) fn seal(mut self) -> Vec<u8> {
+        let sum = hash::checksum(&self.bytes);
+        self.u64(sum);
+        self.bytes
+    }
+}
+
+/// Reads numbers from bytes; every read beyond the end is an error that names what was being read.
+pub(crate) struct Reader<'a> {
+    rest: &'a [u8],
+    what: &'static str,
+}
+
+impl<'a> Reader<'a> {
+    /// Checks magic, version and checksum.
+    pub(crate) fn open(
+        bytes: &'a [u8],
+        magic: &[u8; 4],
+        version: u32,
+        what: &'static str,
+    ) -> Result<Reader<'a>, Error> {
+        let (body, sum) = bytes
+            .split_last_chunk::<8>()
+            .ok_or_else(|| Error::Snapshot(format!("{what} of {} bytes is cut short", bytes.len())))?;
+        let mut reader = Reader { rest: body, what };
+        if reader.take(4)? != magic {
+            return Err(Error::Snapshot(format!(
+                "these bytes are not a {what}: they do not begin with {magic:?}"
+            )));
+        }
+        let found = reader.u32()?;
+        if found != version {
+            return Err(Error::Snapshot(format!(
+                "{what} has version {found}, this build reads version {version}"
+            )));
+        }
+        let sum = u64::from_le_bytes(*sum);
+        let computed = hash::checksum(body);
+        if computed != sum {
+            return Err(Error::Snapshot(format!(
+                "{what} is damaged: its checksum is {sum:016x}, its bytes give {computed:016x}"
+            )));
+        }
+        Ok(reader)
+    }
+
+    fn take(&mut self, count: usize) -> Result<&'a [u8], Error> {
+        let (head, rest) = self.rest.split_at_checked(count).ok_or_else(|| {
+            Error::Snapshot(format!(
+                "{} is cut short: {count} bytes wanted, {} left",
+                self.what,
+                self.rest.len()
+            ))
+        })?;
+        self.rest = rest;
+        Ok(head)
+    }
+
+    pub(crate) fn u8(&mut self) -> Result<u8, Error> {
+        Ok(self.take(1)?[0])
+    }
+
+    pub(crate) fn u32(&mut self) -> Result<u32, Error> {
+        Ok(u32::from_le_bytes(self.array()?))
+    }
+
+    pub(crate) fn u64(&mut self) -> Result<u64, Error> {
+        Ok(u64::from_le_bytes(self.array()?))
+    }
+
+    pub(crate) fn f64(&mut self) -> Result<f64, Error> {
+        Ok(f64::from_bits(self.u64()?))
+    }
+
+    pub(crate) fn vec2(&mut self) -> Result<Vec2, Error> {
+        Ok(Vec2::new(self.f64()?, self.f64()?))
+    }
+
+    /// A number of items of at least `size` bytes each: never more than the bytes that are left can hold.
+    pub(crate) fn count(&mut self, size: usize) -> Result<usize, Error> {
+        let count = self.u64()?;
+        let most = self.rest.len() / size;
+        usize::try_from(count)
+            .ok()
+            .filter(|&count| count <= most)
+            .ok_or_else(|| {
+                Error::Snapshot(format!(
+                    "{} claims {count} items where at most {most} fit",
+                    self.what
+                ))
+            })
+    }
+
+    pub(crate) fn bytes(&mut self) -> Result<&'a [u8], Error> {
+        let count = self.count(1)?;
+        self.take(count)
+    }
+
+    pub(crate) fn end(&self) -> Result<(), Error> {
+        if self.rest.is_empty() {
+            return Ok(());
+        }
+        Err(Error::Snapshot(format!(
+            "{} has {} bytes too many",
+            self.what,
+            self.rest.len()
+        )))
+    }
+
+    fn array<const N: usize>(&mut self) -> Result<[u8; N], Error> {
+        let (head, rest) = self.rest.split_first_chunk::<N>().ok_or_else(|| {
+            Error::Snapshot(format!(
+                "{} is cut short: {N} bytes wanted, {} left",
+                self.what,
+                self.rest.len()
+            ))
+        })?;
+        self.rest = rest;
+        Ok(*head)
+    }
+}

@@ -1,0 +1,82 @@
+//! Contact treatments: what is done about balls that meet in a tick. One file each, one trait, one table.
+//!
+//! A treatment moves the balls over one substep, from its start to its end: where the collisions are put in time is
+//! what treatments differ in.
+
+mod exchange;
+mod overlap;
+
+use crate::broadphase::{Broadphase, Discs, Pair, Reach};
+use crate::force::Field;
+use crate::integrator::Integrator;
+use crate::{Balls, Counters, Error, Rules};
+
+/// Most collisions in one tick; see [`Error::TooManyEvents`].
+pub const EVENT_LIMIT: u64 = 4_000_000;
+
+/// All that a treatment works on.
+pub struct Substep<'a> {
+    /// The constants of the world.
+    pub rules: &'a Rules,
+    /// The balls.
+    pub balls: &'a mut Balls,
+    /// The counters.
+    pub counters: &'a mut Counters,
+    /// The forces.
+    pub field: &'a Field,
+    /// Moves the balls freely.
+    pub integrator: &'static Integrator,
+    /// Finds pairs.
+    pub broadphase: &'a mut dyn Broadphase,
+    /// The tick being made.
+    pub tick: u64,
+    /// Simulated time at the start.
+    pub time: f64,
+    /// Length in seconds.
+    pub dt: f64,
+}
+
+/// A contact treatment; what it keeps is scratch memory.
+pub trait Contacts: Send + Sync {
+    /// Moves the balls over one substep, collisions included.
+    ///
+    /// # Errors
+    /// [`Error::TooManyEvents`]; the state is then to be thrown away.
+    fn advance(&mut self, substep: &mut Substep<'_>) -> Result<(), Error>;
+}
+
+/// A registered treatment.
+pub struct Kind {
+    /// Its name.
+    pub name: &'static str,
+    /// Makes one.
+    pub make: fn() -> Box<dyn Contacts>,
+    /// The integrators that it can be paired with; None: all.
+    pub integrators: Option<&'static [&'static str]>,
+    /// Why not with others.
+    pub reason: &'static str,
+}
+
+/// All treatments.
+pub static TABLE: [Kind; 1] = [Kind {
+    name: "overlap",
+    make: || Box::new(overlap::Overlap::default()),
+    integrators: None,
+    reason: "",
+}];
+
+/// All overlapping pairs as (lower index, higher index), in that order.
+pub(crate) fn sorted_pairs(balls: &Balls, broadphase: &mut dyn Broadphase, pairs: &mut Vec<Pair>) {
+    let reach = match balls.uniform() {
+        Some(shape) => Reach::Same(shape.radius),
+        None => Reach::Each(&balls.radius),
+    };
+    let discs = Discs {
+        center: &balls.position,
+        reach,
+    };
+    pairs.clear();
+    broadphase.build(&discs);
+    broadphase.pairs(&discs, pairs);
+    pairs.sort_unstable();
+}

@@ -1,0 +1,82 @@
+//! The one error type. Each variant says what is wrong, the value, and the bound.
+
+use std::fmt;
+
+/// Why a world could not be made, restored or stepped. A world that fails a step stays at its last whole tick.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Error {
+    /// Rules or initial balls are out of bounds.
+    Scene(String),
+    /// A method is not registered, or two methods cannot be paired.
+    Model(String),
+    /// An input record is malformed.
+    Input(String),
+    /// Bytes of a snapshot, of rules or of a recording cannot be read.
+    Snapshot(String),
+    /// A position or velocity left the range of f64: the method is unstable in this scene.
+    Diverged {
+        /// The tick that could not be completed.
+        tick: u64,
+        /// Id of the lowest ball concerned.
+        ball: u64,
+    },
+    /// One tick holds more collisions than [`crate::contacts::EVENT_LIMIT`] allows.
+    TooManyEvents {
+        /// The tick that could not be completed.
+        tick: u64,
+        /// The pair of ids that collided last; equal ids stand for a ball and a wall.
+        pair: (u64, u64),
+        /// Seconds into the tick.
+        time: f64,
+        /// The bound.
+        limit: u64,
+    },
+}
+
+impl Error {
+    /// Name of the class that stands for this error in `kuglice.errors`.
+    #[must_use]
+    pub fn class(&self) -> &'static str {
+        match self {
+            Error::Scene(_) => "SceneError",
+            Error::Model(_) => "ModelError",
+            Error::Input(_) => "InputError",
+            Error::Snapshot(_) => "SnapshotError",
+            Error::Diverged { .. } => "DivergedError",
+            Error::TooManyEvents { .. } => "TooManyEvents",
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Error::Scene(what) | Error::Model(what) | Error::Input(what) | Error::Snapshot(what) => {
+                f.write_str(what)
+            }
+            Error::Diverged { tick, ball } => write!(
+                f,
+                "tick {tick}: the position or velocity of ball {ball} is no longer finite; \
+                 the method is unstable in this scene, take a shorter tick, more substeps or another integrator"
+            ),
+            Error::TooManyEvents {
+                tick,
+                pair: (low, high),
+                time,
+                limit,
+            } => {
+                let what = if low == high {
+                    format!("ball {low} and a wall")
+                } else {
+                    format!("balls {low} and {high}")
+                };
+                write!(
+                    f,
+                    "tick {tick}: more than {limit} collisions in one tick, the last of {what} {time} s into it"
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for Error {}

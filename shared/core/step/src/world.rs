@@ -1,0 +1,212 @@
+//! A world: a state, the rules and the model that step it, and scratch memory that no result depends on.
+
+use std::sync::Arc;
+
+use crate::broadphase::{Broadphase, Pair};
+use crate::contacts::{self, Contacts, Substep};
+use crate::force::{Field, HeldNow};
+use crate::{Error, Input, Model, NewBall, Rules, State, Vec2, apply, energy, hash, snapshot};
+
+/// A simulation that can be stepped, copied, saved and restored.
+pub struct World {
+    rules: Arc<Rules>,
+    model: Model,
+    state: State,
+    contacts: Box<dyn Contacts>,
+    broadphase: Box<dyn Broadphase>,
+    /// The last whole tick, to go back to if a step fails.
+    last: State,
+    inputs: Vec<Input>,
+}
+
+impl Clone for World {
+    fn clone(&self) -> World {
+        World::with_state(Arc::clone(&self.rules), self.model.clone(), self.state.clone())
+    }
+}
+
+impl World {
+    /// A world at tick 0; balls get the ids 0, 1, ... in their order.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if a ball is out of bounds, or there are more than 2^32 - 1.
+    pub fn new(rules: Rules, model: Model, balls: &[NewBall]) -> Result<World, Error> {
+        if u32::try_from(balls.len()).is_err() {
+            return Err(Error::Scene(format!(
+                "{} balls are given, at most {} can be",
+                balls.len(),
+                u32::MAX
+            )));
+        }
+        let mut state = State::default();
+        for (id, ball) in (0u64..).zip(balls) {
+            ball.check()
+                .map_err(|error| Error::Scene(format!("ball {id}: {error}")))?;
+            state.balls.push(id, *ball);
+            state.next_id = id + 1;
+        }
+        Ok(World::with_state(Arc::new(rules), model, state))
+    }
+
+    /// A world that goes on from a snapshot.
+    ///
+    /// # Errors
+    /// [`Error::Snapshot`] if the bytes are not a snapshot of this step version.
+    pub fn restore(rules: Rules, model: Model, bytes: &[u8]) -> Result<World, Error> {
+        Ok(World::with_state(Arc::new(rules), model, snapshot::read(bytes)?))
+    }
+
+    fn with_state(rules: Arc<Rules>, model: Model, state: State) -> World {
+        let contacts = model.make_contacts();
+        let broadphase = model.make_broadphase(&rules);
+        World {
+            rules,
+            model,
+            state,
+            contacts,
+            broadphase,
+            last: State::default(),
+            inputs: Vec::new(),
+        }
+    }
+
+    /// Becomes a copy of `other`, in the memory that is there.
+    pub fn copy_from(&mut self, other: &World) {
+        if !Arc::ptr_eq(&self.rules, &other.rules) {
+            *self = other.clone();
+            return;
+        }
+        self.state.clone_from(&other.state);
+    }
+
+    /// One tick: inputs, forces, move, contacts, walls. `dt` replaces the scene's tick length.
+    ///
+    /// # Errors
+    /// [`Error::Diverged`] or [`Error::TooManyEvents`]; the world then stays as it was before.
+    pub fn step(&mut self, inputs: &[Input], dt: Option<f64>) -> Result<(), Error> {
+        if let Some(dt) = dt.filter(|dt| !(dt.is_finite() && *dt > 0.0)) {
+            return Err(Error::Input(format!(
+                "dt is {dt} s, it must be above 0 and finite"
+            )));
+        }
+        self.last.clone_from(&self.state);
+        let done = self.try_step(inputs, dt);
+        if done.is_err() {
+            std::mem::swap(&mut self.state, &mut self.last);
+        }
+        done
+    }
+
+    fn try_step(&mut self, inputs: &[Input], dt: Option<f64>) -> Result<(), Error> {
+        let state = &mut self.state;
+        self.inputs.clear();
+        self.inputs.extend_from_slice(inputs);
+        apply::inputs(state, &mut self.inputs);
+
+        let start = self.rules.time(state);
+        let whole = dt.unwrap_or(1.0 / self.rules.tick_rate());
+        let part = whole / f64::from(self.model.substeps());
+        let field = Field::new(self.rules.forces(), &state.balls, HeldNow::of(state));
+        for substep in 0..self.model.substeps() {
+            self.contacts.advance(&mut Substep {
+                rules: &self.rules,
+                balls: &mut state.balls,
+                counters: &mut state.counters,
+                field: &field,
+                integrator: self.model.integrator(),
+                broadphase: &mut *self.broadphase,
+                tick: state.tick,
+                time: start + f64::from(substep) * part,
+                dt: part,
+            })?;
+        }
+        if let Some(ball) = state.balls.first_not_finite() {
+            return Err(Error::Diverged {
+                tick: state.tick,
+                ball,
+            });
+        }
+        state.tick += 1;
+        if let Some(dt) = dt {
+            state.variable_ticks += 1;
+            state.variable_time += dt;
+        }
+        Ok(())
+    }
+
+    /// The state.
+    #[must_use]
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// The rules.
+    #[must_use]
+    pub fn rules(&self) -> &Rules {
+        &self.rules
+    }
+
+    /// The model.
+    #[must_use]
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// Simulated seconds.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.rules.time(&self.state)
+    }
+
+    /// The 64 bits that stand for the state.
+    #[must_use]
+    pub fn state_hash(&self) -> u64 {
+        hash::state(&self.state)
+    }
+
+    /// The state as bytes.
+    #[must_use]
+    pub fn snapshot(&self) -> Vec<u8> {
+        snapshot::write(&self.state)
+    }
+
+    /// Kinetic energy of the balls that can move.
+    #[must_use]
+    pub fn kinetic_energy(&self) -> f64 {
+        energy::kinetic(&self.state)
+    }
+
+    /// Potential energy of the balls that can move.
+    #[must_use]
+    pub fn potential_energy(&self) -> f64 {
+        energy::potential(&self.rules, &self.state)
+    }
+
+    /// Momentum of the balls that can move.
+    #[must_use]
+    pub fn momentum(&self) -> Vec2 {
+        energy::momentum(&self.state)
+    }
+
+    /// All pairs that overlap now, as indices, in order.
+    pub fn overlapping(&mut self) -> Vec<Pair> {
+        let mut pairs = Vec::new();
+        contacts::sorted_pairs(&self.state.balls, &mut *self.broadphase, &mut pairs);
+        pairs
+    }
+
+    /// Rectangles of the occupied nodes of a quadtree over the balls as they are now.
+    #[must_use]
+    pub fn nodes(&self) -> Vec<[f64; 4]> {
+        let name = if self.model.broadphase() == "quadtree" {
+            "quadtree"
+        } else {
+            "loose_quadtree"
+        };
+        let model = Model::new("verlet", "overlap", name, 1, self.model.smallest_node());
+        let Ok(model) = model else { return Vec::new() };
+        let mut tree = model.make_broadphase(&self.rules);
+        contacts::sorted_pairs(&self.state.balls, &mut *tree, &mut Vec::new());
+        tree.nodes()
+    }
+}

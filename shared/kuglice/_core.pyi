@@ -1,0 +1,156 @@
+"""The compiled part: kuglice-step and kuglice-raster, converted to numpy and to the errors of kuglice.errors.
+
+Positions, velocities: float64 arrays of shape (n, 2). Radii, masses: (n,). Ids: uint64 (n,). Arrays that a
+property returns are copies in id order. Inputs travel as records of INPUT_BYTES bytes each, packed by kuglice.inputs.
+"""
+
+from collections.abc import Sequence
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+type Floats = NDArray[np.float64]
+type Ids = NDArray[np.uint64]
+type Pixels = NDArray[np.uint8]
+
+STEP_VERSION: int
+"""Changes when, and only when, some state would step to other bits than before."""
+INTEGRATORS: tuple[str, ...]
+CONTACTS: tuple[str, ...]
+BROADPHASES: tuple[str, ...]
+FORCES: dict[str, tuple[str, ...]]
+"""Force kind -> names of its numbers, in the order in which Rules wants them."""
+INPUT_KINDS: tuple[str, ...]
+"""Index in this tuple = the kind byte of an input record."""
+INPUT_BYTES: int
+NO_BALL: int
+"""Ball id of an input record that names no ball (a kick of one's own ball)."""
+
+class Rules:
+    """What never changes in a world: box, walls, restitution, tick rate, forces."""
+
+    def __new__(
+        cls,
+        *,
+        box: tuple[float, float, float, float],
+        walls: bool,
+        restitution: float,
+        tick_rate: float,
+        forces: Sequence[tuple[str, Sequence[float]]],
+    ) -> Self: ...
+    @staticmethod
+    def from_bytes(data: bytes) -> Rules: ...
+    def to_bytes(self) -> bytes: ...
+
+class Model:
+    """How a world is computed. Raises ModelError for a name or pairing that is not registered."""
+
+    def __new__(
+        cls,
+        *,
+        integrator: str,
+        contacts: str,
+        broadphase: str,
+        substeps: int = 1,
+        smallest_node: float | None = None,
+    ) -> Self: ...
+
+class World:
+    """A state and the step that moves it. Stepping releases the GIL; a world is not to be shared by threads."""
+
+    def __new__(
+        cls, rules: Rules, model: Model, *, position: Floats, velocity: Floats, radius: Floats, mass: Floats
+    ) -> Self: ...
+    @staticmethod
+    def restore(rules: Rules, model: Model, data: bytes) -> World: ...
+    def step(self, inputs: bytes, dt: float | None = None) -> None:
+        """One tick. `inputs` is any number of input records in any order; `dt` overrides 1 / tick_rate."""
+
+    def run(self, ticks: int) -> None:
+        """That many ticks without inputs."""
+
+    def snapshot(self) -> bytes: ...
+    def clone(self) -> World: ...
+    def copy_from(self, other: World) -> None:
+        """Become a copy of other, reusing this world's memory."""
+
+    @property
+    def tick(self) -> int: ...
+    @property
+    def time(self) -> float: ...
+    @property
+    def next_id(self) -> int: ...
+    @property
+    def collisions(self) -> int: ...
+    @property
+    def wall_hits(self) -> int: ...
+    @property
+    def inputs_applied(self) -> int: ...
+    @property
+    def inputs_ignored(self) -> int: ...
+    @property
+    def state_hash(self) -> int: ...
+    @property
+    def count(self) -> int: ...
+    @property
+    def id(self) -> Ids: ...
+    @property
+    def position(self) -> Floats: ...
+    @property
+    def velocity(self) -> Floats: ...
+    @property
+    def radius(self) -> Floats: ...
+    @property
+    def mass(self) -> Floats: ...
+    @property
+    def kinetic_energy(self) -> float: ...
+    @property
+    def potential_energy(self) -> float: ...
+    @property
+    def momentum(self) -> tuple[float, float]: ...
+    @property
+    def players(self) -> list[tuple[int, int | None]]:
+        """(client, id of its ball or None), by client."""
+
+    @property
+    def held(self) -> list[tuple[int, str, float, float, float]]:
+        """Inputs being held: (client, "thrust" or "attract", x, y, strength), by client."""
+
+    def overlapping(self) -> NDArray[np.uint64]:
+        """(k, 2) ids of all pairs that overlap now, sorted, found by this world's broadphase."""
+
+    def nodes(self) -> Floats:
+        """(k, 4) rectangles (left, bottom, right, top) of the occupied nodes of a quadtree over the balls now."""
+
+    def lend(self) -> Lease:
+        """Zero-copy arrays. Until the lease ends, whatever would change this world raises LentError."""
+
+class Lease:
+    """Read-only arrays over a world's own memory, in id order."""
+
+    position: Floats
+    velocity: Floats
+    radius: Floats
+    mass: Floats
+    id: Ids
+
+    def end(self) -> None: ...
+
+def recording(world: World, ticks: Sequence[bytes]) -> bytes:
+    """A run as bytes that the example `rerun` of kuglice-step can make again: the world as it is, inputs per tick."""
+
+def random_uniform(seed: int, stream: int, first: int, count: int) -> Floats:
+    """Numbers `first .. first + count` of a counter-based generator, in [0, 1); equal on every platform."""
+
+def draw_discs(
+    pixels: Pixels,
+    center: Floats,
+    radius: Floats,
+    colour: Pixels,
+) -> None:
+    """Blend filled anti-aliased discs onto `pixels` (height, width, 3), in order, in place.
+
+    `center` (n, 2) and `radius` (n,) in pixels, the origin at the top left corner of the top left pixel, y downwards;
+    `colour` (n, 4): red, green, blue, opacity, 0-255. What lies outside the picture is clipped.
+    """
