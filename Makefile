@@ -22,7 +22,7 @@ demo: $(SETUP)
 ## make test    cargo test (debug build) and pytest
 test: $(SETUP)
 	$(CARGO) test $(WORKSPACE) --workspace --exclude kuglice-python
-	$(BIN)/pytest
+	$(BIN)/pytest --numprocesses auto --maxprocesses 4 --dist loadfile
 
 ## make lint    formatting, types, stubs, docker files: nothing is changed, only judged
 lint: $(SETUP)

@@ -2,7 +2,7 @@
 """Gives every crate the version named in .ci/cargo-versions.txt.
 
 Cargo.lock names the host of a registry, so it is not committed; the versions are, and this puts them back.
-`.ci/pin-cargo --write` writes the list anew from the Cargo.lock that is there.
+`.ci/pin_cargo.py --write` writes the list anew from the Cargo.lock that is there.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ def main() -> int:
     if locked() != wanted:
         off = ", ".join(f"{name} {version}" for name, version in sorted(locked() ^ wanted))
         print(f"pin-cargo: Cargo.lock differs from .ci/cargo-versions.txt in {off};", file=sys.stderr)
-        print("pin-cargo: after a change of dependencies run .ci/pin-cargo --write", file=sys.stderr)
+        print("pin-cargo: after a change of dependencies run .ci/pin_cargo.py --write", file=sys.stderr)
         return 1
     return 0
 
