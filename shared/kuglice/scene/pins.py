@@ -1,0 +1,24 @@
+"""Parts of the model that a scene insists on."""
+
+from __future__ import annotations
+
+from pydantic import BaseModel, ConfigDict
+
+from kuglice.errors import SceneError
+from kuglice.schema.numbers import Count, Positive
+from kuglice.schema.problems import raises
+
+__all__ = ["ModelPins"]
+
+
+@raises(SceneError)
+class ModelPins(BaseModel):
+    """Each part that is None is the planner's choice. Names: `_core.INTEGRATORS` and its neighbours."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    integrator: str | None = None
+    contacts: str | None = None
+    broadphase: str | None = None
+    substeps: Count | None = None
+    smallest_node: Positive | None = None

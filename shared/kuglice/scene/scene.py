@@ -1,0 +1,108 @@
+"""Scene: what is there, and what it demands. A frozen schema whose instances are always valid."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from os import PathLike
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+from kuglice import _core
+from kuglice.balls import Balls
+from kuglice.errors import SceneError
+from kuglice.layout import Group, place
+from kuglice.scene.forces import Force
+from kuglice.scene.limits import InputLimits
+from kuglice.scene.pins import ModelPins
+from kuglice.scene.players import PlayerRules
+from kuglice.scene.start import check_start
+from kuglice.schema.numbers import Box, Flag, Fraction, Positive
+from kuglice.schema.problems import raises, told
+
+__all__ = ["Scene"]
+
+Accuracy = Literal["visual", "faithful", "exact"] | Positive
+
+
+@raises(SceneError)
+class Scene(BaseModel):
+    """Balls in a box (left, bottom, right, top), the forces on them, and what clients may do.
+
+    Give either `balls` or `groups`: recipes from which the balls are placed. Raises SceneError, which lists
+    every problem with its key, value and bound: a wrong key, type, range or NaN, a ball outside the box, and an
+    overlap at the start unless `allow_overlap`.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    title: str = ""
+    description: str = ""
+    box: Box
+    walls: Flag = True
+    restitution: Fraction = 1.0
+    tick_rate: Annotated[Positive, Field(le=1e6)] = 60.0
+    """Ticks per second."""
+    forces: tuple[Force, ...] = ()
+    groups: tuple[Group, ...] = ()
+    balls: Balls = Field(default_factory=Balls.none)
+    limits: InputLimits = InputLimits()
+    players: PlayerRules | None = None
+    allow_overlap: Flag = False
+    model: ModelPins = ModelPins()
+    accuracy: Accuracy = "visual"
+    """"visual", "faithful" or "exact", or the largest error of a position that is accepted, in radii."""
+    budget_ms: Positive | None = None
+    """Milliseconds that one tick may take."""
+
+    @model_validator(mode="after")
+    def _settle(self) -> Self:
+        if self.groups and not len(self.balls):
+            object.__setattr__(self, "balls", place(self.groups, self.box))
+        check_start(self)
+        return self
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> Scene:
+        """Read a TOML file. Raises SceneError, also when the file cannot be read."""
+        from kuglice.scene.file import read_scene  # noqa: PLC0415 - it makes a Scene
+
+        return read_scene(path)
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write a TOML file that loads to an equal scene, bit for bit."""
+        from kuglice.scene.file import write_scene  # noqa: PLC0415 - it needs layouts
+
+        write_scene(self, path)
+
+    def to_message(self) -> dict[str, Any]:
+        """Values that msgpack knows; arrays as little-endian bytes of all bits. Groups become balls."""
+        message = self.model_dump(mode="python", exclude={"balls", "groups"})
+        message["balls"] = self.balls.to_message()
+        return message
+
+    @classmethod
+    def from_message(cls, message: Mapping[str, Any]) -> Scene:
+        """Raises SceneError for anything that is not a valid scene."""
+        try:
+            return cls.model_validate(message)
+        except ValidationError as error:
+            raise told(error, SceneError, "scene message", cls.model_fields) from None
+
+    def rules(self) -> _core.Rules:
+        """The part that never changes in a world, for the compiled core."""
+        return _core.Rules(
+            box=self.box,
+            walls=self.walls,
+            restitution=self.restitution,
+            tick_rate=self.tick_rate,
+            forces=[
+                (force.kind, [float(getattr(force, name)) for name in _core.FORCES[force.kind]])
+                for force in self.forces
+            ],
+        )
+
+    def _repr_png_(self) -> bytes:
+        from kuglice.world import World  # noqa: PLC0415 - a World is made of a Scene
+
+        return World(self)._repr_png_()

@@ -1,0 +1,1 @@
+"""What every schema of this package is made of: number types, and findings told as one error."""

@@ -1,0 +1,216 @@
+"""World: a scene that runs. A thin front of the compiled step that remembers its scene and model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kuglice import _core
+from kuglice.inputs import Input, pack
+from kuglice.model import Model
+from kuglice.plan import plan
+from kuglice.scene import Scene
+
+__all__ = ["World"]
+
+Floats = NDArray[np.float64]
+Ids = NDArray[np.uint64]
+
+
+class World:
+    """State and step of a scene. Without a model, `plan(scene)` chooses one.
+
+    Arrays that properties return are copies in id order, safe to keep; `view()` lends the memory itself.
+    Stepping releases the GIL; one world is not to be stepped from two threads at once.
+    """
+
+    __slots__ = ("_core", "_model", "_scene")
+
+    def __init__(self, scene: Scene, model: Model | None = None) -> None:
+        self._scene = scene
+        self._model = plan(scene) if model is None else model
+        balls = scene.balls
+        self._core = _core.World(
+            scene.rules(),
+            self._model.core(),
+            position=balls.position,
+            velocity=balls.velocity,
+            radius=balls.radius,
+            mass=balls.mass,
+        )
+
+    @classmethod
+    def restore(cls, scene: Scene, data: bytes, model: Model | None = None) -> World:
+        """The world of a snapshot; it continues bit for bit. Raises SnapshotError."""
+        chosen = plan(scene) if model is None else model
+        return cls._wrap(scene, chosen, _core.World.restore(scene.rules(), chosen.core(), data))
+
+    @classmethod
+    def _wrap(cls, scene: Scene, model: Model, core: _core.World) -> World:
+        made = cls.__new__(cls)
+        made._scene, made._model, made._core = scene, model, core
+        return made
+
+    def step(self, inputs: Iterable[Input] | bytes = (), dt: float | None = None) -> None:
+        """One tick with inputs in any order, or with records that `pack` made.
+
+        dt, in seconds, replaces 1 / tick_rate for loops of variable step. Raises LentError while lent.
+        """
+        self._core.step(inputs if isinstance(inputs, bytes) else pack(inputs), dt)
+
+    def run(self, ticks: int) -> None:
+        """That many ticks without inputs. Raises LentError while lent."""
+        self._core.run(ticks)
+
+    def snapshot(self) -> bytes:
+        """The state before the next tick's inputs: versioned, checksummed, every bit."""
+        return self._core.snapshot()
+
+    def clone(self) -> World:
+        """An independent world in the same state."""
+        return World._wrap(self._scene, self._model, self._core.clone())
+
+    def copy_from(self, other: World) -> None:
+        """Become a copy of another world of the same scene, reusing memory. Raises LentError while lent."""
+        self._core.copy_from(other._core)
+
+    @contextmanager
+    def view(self) -> Iterator[_core.Lease]:
+        """Lend read-only zero-copy arrays: position, velocity, radius, mass, id. Stepping meanwhile: LentError."""
+        lease = self._core.lend()
+        try:
+            yield lease
+        finally:
+            lease.end()
+
+    @property
+    def scene(self) -> Scene:
+        """What this world started from."""
+        return self._scene
+
+    @property
+    def model(self) -> Model:
+        """What computes it."""
+        return self._model
+
+    @property
+    def tick(self) -> int:
+        """Ticks done since the start of the scene."""
+        return self._core.tick
+
+    @property
+    def time(self) -> float:
+        """Seconds since the start of the scene."""
+        return self._core.time
+
+    @property
+    def next_id(self) -> int:
+        """The id that the next ball will get; ids are never reused."""
+        return self._core.next_id
+
+    @property
+    def count(self) -> int:
+        """Balls now, pegs included."""
+        return self._core.count
+
+    def __len__(self) -> int:
+        return self._core.count
+
+    @property
+    def id(self) -> Ids:
+        """(n,) ids, ascending."""
+        return self._core.id
+
+    @property
+    def position(self) -> Floats:
+        """(n, 2)."""
+        return self._core.position
+
+    @property
+    def velocity(self) -> Floats:
+        """(n, 2)."""
+        return self._core.velocity
+
+    @property
+    def radius(self) -> Floats:
+        """(n,)."""
+        return self._core.radius
+
+    @property
+    def mass(self) -> Floats:
+        """(n,), infinite for pegs."""
+        return self._core.mass
+
+    @property
+    def kinetic_energy(self) -> float:
+        """Sum of m v^2 / 2, pegs left out."""
+        return self._core.kinetic_energy
+
+    @property
+    def potential_energy(self) -> float:
+        """Of the forces that have a potential, pegs left out."""
+        return self._core.potential_energy
+
+    @property
+    def energy(self) -> float:
+        """Kinetic and potential."""
+        return self._core.kinetic_energy + self._core.potential_energy
+
+    @property
+    def momentum(self) -> tuple[float, float]:
+        """Sum of m v, pegs left out."""
+        return self._core.momentum
+
+    @property
+    def collisions(self) -> int:
+        """Pairs that exchanged velocity since the start."""
+        return self._core.collisions
+
+    @property
+    def wall_hits(self) -> int:
+        """Reflections at walls since the start."""
+        return self._core.wall_hits
+
+    @property
+    def inputs_applied(self) -> int:
+        """Inputs that took effect since the start."""
+        return self._core.inputs_applied
+
+    @property
+    def inputs_ignored(self) -> int:
+        """Inputs without effect since the start, such as a kick of a ball that was gone."""
+        return self._core.inputs_ignored
+
+    @property
+    def state_hash(self) -> int:
+        """64 bits that stand for the whole state."""
+        return self._core.state_hash
+
+    @property
+    def players(self) -> list[tuple[int, int | None]]:
+        """(client, id of its ball or None), by client."""
+        return self._core.players
+
+    @property
+    def held(self) -> list[tuple[int, str, float, float, float]]:
+        """Inputs being held: (client, "thrust" or "attract", x, y, strength), by client."""
+        return self._core.held
+
+    def overlapping(self) -> Ids:
+        """(k, 2) ids of all pairs that overlap now, sorted."""
+        return self._core.overlapping()
+
+    def nodes(self) -> Floats:
+        """(k, 4) rectangles (left, bottom, right, top) of occupied nodes of a quadtree over the balls now."""
+        return self._core.nodes()
+
+    def __repr__(self) -> str:
+        return f"World({self._scene.title!r}, tick {self.tick}, {self.count} balls, {self._model})"
+
+    def _repr_png_(self) -> bytes:
+        from kuglice.picture import png  # noqa: PLC0415 - few worlds are drawn
+
+        return png(self)
