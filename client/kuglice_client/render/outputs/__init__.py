@@ -1,0 +1,45 @@
+"""Where frames go: one file per kind, the same signature, one table by suffix."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from os import PathLike
+from pathlib import Path
+
+from kuglice.errors import PictureError
+
+from kuglice_client.render.outputs.gif import Gif
+from kuglice_client.render.outputs.output import Encoder, Output
+from kuglice_client.render.outputs.png import open_png
+from kuglice_client.render.outputs.video import Mp4, WebM
+
+__all__ = ["OUTPUTS", "Encoder", "Output", "open_output"]
+
+OUTPUTS: dict[str, Callable[[Path, tuple[int, int], float], Encoder]] = {
+    ".mp4": Mp4,
+    ".webm": WebM,
+    ".gif": Gif,
+    ".png": open_png,
+}
+
+
+def open_output(path: str | PathLike[str], *, size: tuple[int, int], fps: float, depth: int = 8) -> Output:
+    """Open a film or pictures for frames of `size` (width, height), `fps` frames per second.
+
+    The suffix says the kind: `.mp4`, `.webm`, `.gif`, or `.png`: with a pattern like `frame-%05d.png` one file per
+    frame, counted from 0; without one, the last frame only. Missing folders are made, an existing file is replaced.
+    `depth` frames may wait for their encoding. Raises PictureError for what cannot be opened as asked, and
+    MissingExtraError without the extra `render`.
+    """
+    target = Path(path)
+    kind = OUTPUTS.get(target.suffix.lower())
+    if kind is None:
+        raise PictureError(f"output {target}: its suffix must be one of {', '.join(OUTPUTS)}")
+    if not 0 < fps <= 1000:
+        raise PictureError(f"output {target}: {fps} frames per second, must be above 0 and at most 1000")
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        encoder = kind(target, size, fps)
+    except OSError as error:
+        raise PictureError(f"output {target}: cannot be written: {error.strerror or error}") from error
+    return Output(target, size, encoder, depth)
