@@ -1,10 +1,9 @@
 # Every target sets up what it needs: a private .venv, built once and again only when its sources change.
 PYTHON ?= python3
 BIN := .venv/bin
-CARGO := cargo
 WORKSPACE := --manifest-path shared/core/Cargo.toml
 SETUP := .venv/.setup-stamp
-RUST := $(shell find shared/core -name target -prune -o \( -name '*.rs' -o -name Cargo.toml \) -print)
+RUST := $(shell find shared/core \( -name target -o -name tests -o -name examples \) -prune -o \( -name '*.rs' -o -name Cargo.toml \) -print)
 
 help:
 	@sed -n 's/^## //p' Makefile
@@ -21,7 +20,7 @@ demo: $(SETUP)
 
 ## make test    cargo test (debug build) and pytest
 test: $(SETUP)
-	$(CARGO) test $(WORKSPACE) --workspace --exclude kuglice-python
+	cargo test $(WORKSPACE) --workspace --exclude kuglice-python
 	$(BIN)/pytest --numprocesses auto --maxprocesses 4 --dist loadfile
 
 ## make lint    formatting, types, stubs, docker files: nothing is changed, only judged
@@ -38,7 +37,8 @@ chart: $(SETUP)
 
 ## make core    rebuild the compiled module only
 core:
-	cargo build --release --quiet --manifest-path shared/core/Cargo.toml -p kuglice-python
+	cargo build --release --quiet $(WORKSPACE) -p kuglice-python
+	rm -f shared/kuglice/_core.*.so
 	cp shared/core/target/release/libkuglice_core.so shared/kuglice/_core.abi3.so
 
 ## make golden  new golden hashes; refused unless STEP_VERSION has changed (tests/determinism/mint.py)
