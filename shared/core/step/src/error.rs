@@ -21,7 +21,7 @@ pub enum Error {
         ball: u64,
     },
     /// One tick holds more collisions than [`crate::contacts::EVENT_LIMIT`] allows.
-    TooManyEvents {
+    EventLimit {
         /// The tick that could not be completed.
         tick: u64,
         /// The pair of ids that collided last; equal ids stand for a ball and a wall.
@@ -43,7 +43,7 @@ impl Error {
             Error::Input(_) => "InputError",
             Error::Snapshot(_) => "SnapshotError",
             Error::Diverged { .. } => "DivergedError",
-            Error::TooManyEvents { .. } => "TooManyEvents",
+            Error::EventLimit { .. } => "EventLimitError",
         }
     }
 }
@@ -59,7 +59,7 @@ impl fmt::Display for Error {
                 "tick {tick}: the position or velocity of ball {ball} is no longer finite; \
                  the method is unstable in this scene, take a shorter tick, more substeps or another integrator"
             ),
-            Error::TooManyEvents {
+            Error::EventLimit {
                 tick,
                 pair: (low, high),
                 time,

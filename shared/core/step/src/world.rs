@@ -82,7 +82,7 @@ impl World {
     /// One tick: inputs, forces, move, contacts, walls. `dt` replaces the scene's tick length.
     ///
     /// # Errors
-    /// [`Error::Diverged`] or [`Error::TooManyEvents`]; the world then stays as it was before.
+    /// [`Error::Diverged`] or [`Error::EventLimit`]; the world then stays as it was before.
     pub fn step(&mut self, inputs: &[Input], dt: Option<f64>) -> Result<(), Error> {
         if let Some(dt) = dt.filter(|dt| !(dt.is_finite() && *dt > 0.0)) {
             return Err(Error::Input(format!(

@@ -11,7 +11,7 @@ use crate::force::Field;
 use crate::integrator::Integrator;
 use crate::{Balls, Counters, Error, Rules};
 
-/// Most collisions in one tick; see [`Error::TooManyEvents`].
+/// Most collisions in one tick; see [`Error::EventLimit`].
 pub const EVENT_LIMIT: u64 = 4_000_000;
 
 /// All that a treatment works on.
@@ -41,7 +41,7 @@ pub trait Contacts: Send + Sync {
     /// Moves the balls over one substep, collisions included.
     ///
     /// # Errors
-    /// [`Error::TooManyEvents`]; the state is then to be thrown away.
+    /// [`Error::EventLimit`]; the state is then to be thrown away.
     fn advance(&mut self, substep: &mut Substep<'_>) -> Result<(), Error>;
 }
 
