@@ -12,7 +12,7 @@ from determinism.small_scenes import NAMES, small
 from kuglice import _core
 
 FILE = Path(__file__).with_name("golden.json")
-TICKS = 90
+TICKS = 240
 
 Hashes = dict[str, list[str]]
 """Scene and model -> the state hash at the start, and after a third, two thirds and all of TICKS."""
@@ -47,7 +47,7 @@ def stored(file: Path = FILE) -> tuple[int, Hashes]:
     if not file.exists():
         return 0, {}
     content = json.loads(file.read_text())
-    return content["step_version"], content["hashes"]
+    return content["step_version"], {key: line.split() for key, line in content["hashes"].items()}
 
 
 def mint(fresh: Hashes, file: Path = FILE, *, force: bool = False) -> list[str]:
@@ -62,6 +62,7 @@ def mint(fresh: Hashes, file: Path = FILE, *, force: bool = False) -> list[str]:
             f"{len(lost)} golden hashes would go, first {lost[0]!r}, and STEP_VERSION is still {version}:"
             " raise it if the step was meant to change, or say --force if only the scene was"
         )
-    content = {"step_version": _core.STEP_VERSION, "hashes": dict(sorted(fresh.items()))}
+    lines = {key: " ".join(fresh[key]) for key in sorted(fresh)}
+    content = {"step_version": _core.STEP_VERSION, "hashes": lines}
     file.write_text(json.dumps(content, indent=1) + "\n")
     return [key for key, values in fresh.items() if old.get(key) != values]

@@ -7,7 +7,17 @@ import numpy as np
 import kuglice as kg
 from kuglice import _core
 
-BUILT_IN: dict[str, str] = {}
+BUILT_IN = {
+    "gas": "gas:n=150,packing=0.5",
+    "rain": "rain:n=200",
+    "break": "break:rows=14",
+    "cradle": "cradle",
+    "orbit": "orbit",
+    "pegs": "pegs:n=120,rows=8",
+    "mixed": "mixed:n=150",
+    "dam": "dam:n=400",
+    "arena": "arena:balls=150",
+}
 NAMES = (*BUILT_IN, "everything")
 
 

@@ -8,7 +8,7 @@ from determinism.models import named, pairings
 from determinism.small_scenes import NAMES, small
 from kuglice import _core
 
-TICKS = 60
+TICKS = 240
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -34,3 +34,12 @@ def test_the_size_of_the_smallest_node_changes_no_bit(broadphase: str, smallest_
     brute = kg.World(scene, kg.Model(broadphase="brute"))
     world = kg.World(scene, kg.Model(broadphase=broadphase, smallest_node=smallest_node))
     assert trail(world, script) == trail(brute, script)
+
+
+@pytest.mark.parametrize("name", kg.scenes.TABLE)
+def test_full_size_scenes_too(name: str) -> None:
+    scene = kg.scenes.TABLE[name]()
+    script = flight(scene, 15)
+    verdict = trail(kg.World(scene, kg.Model(broadphase="brute")), script)
+    for broadphase in _core.BROADPHASES:
+        assert trail(kg.World(scene, kg.Model(broadphase=broadphase)), script) == verdict, broadphase

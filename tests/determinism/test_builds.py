@@ -11,7 +11,7 @@ from determinism.small_scenes import NAMES, small
 from kuglice import _core
 from kuglice.inputs import pack
 
-TICKS = 60
+TICKS = 240
 Rerun = Callable[[bytes], list[int]]
 
 

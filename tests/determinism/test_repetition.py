@@ -12,7 +12,7 @@ import kuglice as kg
 from determinism.flying import flight, trail
 from determinism.small_scenes import BUILT_IN, NAMES, small
 
-TICKS = 90
+TICKS = 240
 FLY_IT_AGAIN = """
 import json, sys
 sys.path.insert(0, sys.argv[1])

@@ -9,7 +9,7 @@ from determinism.flying import flight, trail
 from determinism.models import named, pairings
 from determinism.small_scenes import NAMES, small
 
-TICKS = 60
+TICKS = 240
 ROLLBACK = 7
 
 
@@ -56,3 +56,15 @@ def test_worlds_that_copy_each_other_for_rollback_stay_equal(name: str) -> None:
         expected = trail(confirmed, script[first : first + ROLLBACK])
         assert trail(predicted, script[first : first + ROLLBACK]) == expected
         assert trail(clone, script[first : first + ROLLBACK]) == expected
+
+
+@pytest.mark.parametrize("name", kg.scenes.TABLE)
+def test_full_size_scenes_too(name: str) -> None:
+    scene = kg.scenes.TABLE[name]()
+    world = kg.World(scene)
+    for inputs in flight(scene, 20):
+        before = world.snapshot()
+        world.step(inputs)
+        again = kg.World.restore(scene, before, model=world.model)
+        again.step(inputs)
+        assert again.snapshot() == world.snapshot(), f"tick {world.tick}"
