@@ -5,7 +5,7 @@ property returns are copies in id order. Inputs travel as records of INPUT_BYTES
 """
 
 from collections.abc import Sequence
-from typing import Self
+from typing import Self, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +27,7 @@ INPUT_BYTES: int
 NO_BALL: int
 """Ball id of an input record that names no ball (a kick of one's own ball)."""
 
+@final
 class Rules:
     """What never changes in a world: box, walls, restitution, tick rate, forces."""
 
@@ -43,6 +44,7 @@ class Rules:
     def from_bytes(data: bytes) -> Rules: ...
     def to_bytes(self) -> bytes: ...
 
+@final
 class Model:
     """How a world is computed. Raises ModelError for a name or pairing that is not registered."""
 
@@ -56,6 +58,7 @@ class Model:
         smallest_node: float | None = None,
     ) -> Self: ...
 
+@final
 class World:
     """A state and the step that moves it. Stepping releases the GIL; a world is not to be shared by threads."""
 
@@ -126,6 +129,7 @@ class World:
     def lend(self) -> Lease:
         """Zero-copy arrays. Until the lease ends, whatever would change this world raises LentError."""
 
+@final
 class Lease:
     """Read-only arrays over a world's own memory, in id order."""
 
@@ -148,9 +152,28 @@ def draw_discs(
     center: Floats,
     radius: Floats,
     colour: Pixels,
+    shaded: bool = False,
 ) -> None:
     """Blend filled anti-aliased discs onto `pixels` (height, width, 3), in order, in place.
 
     `center` (n, 2) and `radius` (n,) in pixels, the origin at the top left corner of the top left pixel, y downwards;
-    `colour` (n, 4): red, green, blue, opacity, 0-255. What lies outside the picture is clipped.
+    `colour` (n, 4): red, green, blue, opacity, 0-255. `shaded` lights them as balls, whose middle keeps the colour.
+    What lies outside the picture is clipped. All drawing functions raise ValueError for arrays of a wrong shape.
     """
+
+def draw_rings(pixels: Pixels, center: Floats, radius: Floats, thickness: float, colour: Pixels) -> None:
+    """Blend rings between `radius - thickness` and `radius`; the rest as for discs."""
+
+def draw_segments(pixels: Pixels, start: Floats, end: Floats, thickness: Floats, colour: Pixels) -> None:
+    """Blend line segments with round ends: `start` and `end` (n, 2), `thickness` (n,), `colour` (n, 4)."""
+
+def draw_rectangles(pixels: Pixels, rectangle: Floats, thickness: float, colour: Pixels) -> None:
+    """Blend outlines, centred on the edges of `rectangle` (n, 4): left, top, right, bottom. `colour` (n, 4)."""
+
+def draw_fluid(
+    pixels: Pixels, center: Floats, radius: Floats, value: Floats, palette: Pixels, opacity: float
+) -> None:
+    """Blend balls as one liquid surface. `value` (n,) within 0 and 1 chooses from `palette` (k, 3)."""
+
+def fade(pixels: Pixels, target: Pixels, keep: int) -> None:
+    """Move `pixels` towards `target` of the same shape, keeping `keep` / 256 of the difference."""
