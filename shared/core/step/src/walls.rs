@@ -1,6 +1,77 @@
-//! Walls of the box, for treatments that look at the end of a tick.
+//! The walls of the box.
 
-use crate::{Balls, Counters, Rules};
+use crate::{Balls, Counters, Rules, Vec2};
+
+/// A wall as a half-plane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Wall {
+    /// The unit normal, away from the wall; one component is 0.
+    pub(crate) inward: Vec2,
+    /// Where the wall is along that normal.
+    place: f64,
+}
+
+impl Wall {
+    /// Distance of a ball from the wall; below 0 if it reaches beyond.
+    pub(crate) fn gap(&self, position: Vec2, radius: f64) -> f64 {
+        position.dot(self.inward) - self.place - radius
+    }
+
+    /// The vector with its component away from the wall replaced, the other one untouched.
+    pub(crate) fn with_normal(&self, vector: Vec2, away: f64) -> Vec2 {
+        if self.inward.x == 0.0 {
+            Vec2::new(vector.x, away * self.inward.y)
+        } else {
+            Vec2::new(away * self.inward.x, vector.y)
+        }
+    }
+}
+
+/// The four walls, numbered left, right, bottom, top.
+pub(crate) struct Walls {
+    bounds: [f64; 4],
+}
+
+impl Walls {
+    /// The walls of a world, if it has any.
+    pub(crate) fn of(rules: &Rules) -> Option<Walls> {
+        rules.walls().then(|| Walls {
+            bounds: rules.bounds(),
+        })
+    }
+
+    /// Whether a disc stays clear of all walls.
+    pub(crate) fn hold(&self, center: Vec2, reach: f64) -> bool {
+        let [left, bottom, right, top] = self.bounds;
+        (center.x - reach > left)
+            & (center.x + reach < right)
+            & (center.y - reach > bottom)
+            & (center.y + reach < top)
+    }
+
+    /// A wall by its number.
+    pub(crate) fn wall(&self, number: u32) -> Wall {
+        let [left, bottom, right, top] = self.bounds;
+        match number {
+            0 => Wall {
+                inward: Vec2::new(1.0, 0.0),
+                place: left,
+            },
+            1 => Wall {
+                inward: Vec2::new(-1.0, 0.0),
+                place: -right,
+            },
+            2 => Wall {
+                inward: Vec2::new(0.0, 1.0),
+                place: bottom,
+            },
+            _ => Wall {
+                inward: Vec2::new(0.0, -1.0),
+                place: -top,
+            },
+        }
+    }
+}
 
 /// Turns the velocity of every ball that reaches beyond a wall and moves on into it, in the order left, right,
 /// bottom, top. Positions are left alone.

@@ -3,8 +3,11 @@
 //! A treatment moves the balls over one substep, from its start to its end: where the collisions are put in time is
 //! what treatments differ in.
 
+mod backtrack;
+mod event;
 mod exchange;
 mod overlap;
+mod root;
 
 use crate::broadphase::{Broadphase, Discs, Pair, Reach};
 use crate::force::Field;
@@ -58,12 +61,26 @@ pub struct Kind {
 }
 
 /// All treatments.
-pub static TABLE: [Kind; 1] = [Kind {
-    name: "overlap",
-    make: || Box::new(overlap::Overlap::default()),
-    integrators: None,
-    reason: "",
-}];
+pub static TABLE: [Kind; 3] = [
+    Kind {
+        name: "overlap",
+        make: || Box::new(overlap::Overlap::default()),
+        integrators: None,
+        reason: "",
+    },
+    Kind {
+        name: "backtrack",
+        make: || Box::new(backtrack::Backtrack::default()),
+        integrators: None,
+        reason: "",
+    },
+    Kind {
+        name: "event",
+        make: || Box::new(event::EventDriven::default()),
+        integrators: Some(&["verlet"]),
+        reason: "its path between collisions is the parabola, or the kick - drift - kick, of velocity Verlet",
+    },
+];
 
 /// All overlapping pairs as (lower index, higher index), in that order.
 pub(crate) fn sorted_pairs(balls: &Balls, broadphase: &mut dyn Broadphase, pairs: &mut Vec<Pair>) {

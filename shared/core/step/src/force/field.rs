@@ -42,6 +42,15 @@ impl Acceleration for Constant {
 pub struct Sum {
     forces: Vec<Arc<dyn Force>>,
     held: HeldNow,
+    constant: bool,
+}
+
+impl Sum {
+    /// Whether every ball that is not fixed feels the same, everywhere and at all times.
+    #[must_use]
+    pub fn is_constant(&self) -> bool {
+        self.constant
+    }
 }
 
 impl Acceleration for Sum {
@@ -82,7 +91,11 @@ impl Field {
         });
         match constant {
             Some(acceleration) if !balls.any_fixed() => Field::Constant(Constant(acceleration)),
-            _ => Field::Sum(Sum { forces: acting, held }),
+            _ => Field::Sum(Sum {
+                forces: acting,
+                held,
+                constant: constant.is_some(),
+            }),
         }
     }
 }

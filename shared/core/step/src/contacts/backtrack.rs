@@ -1,0 +1,157 @@
+//! `backtrack`: move, then take every overlapping pair back to the time since which it touches, exchange there, and
+//! let both go on for the rest of the tick. The relative motion is taken as straight, so an isolated collision comes
+//! out exact; whatever hits twice in one tick does not.
+
+use super::exchange::{Shares, exchange, normal};
+use super::{Contacts, Substep, sorted_pairs};
+use crate::broadphase::Pair;
+use crate::force::Field;
+use crate::{Balls, Counters, Error, Rules, Vec2};
+
+#[derive(Default)]
+pub(super) struct Backtrack {
+    pairs: Vec<Pair>,
+    /// Mean accelerations of the move, which a wall's contact time depends on; empty without forces.
+    accelerations: Vec<Vec2>,
+}
+
+impl Contacts for Backtrack {
+    fn advance(&mut self, substep: &mut Substep<'_>) -> Result<(), Error> {
+        let balls = &mut *substep.balls;
+        let (rules, dt) = (substep.rules, substep.dt);
+        self.accelerations.clear();
+        if !matches!(substep.field, Field::None(_)) {
+            self.accelerations.extend_from_slice(&balls.velocity);
+        }
+        (substep.integrator.advance)(balls, substep.field, substep.time, dt);
+        for (acceleration, &velocity) in self.accelerations.iter_mut().zip(&balls.velocity) {
+            *acceleration = (velocity - *acceleration) * (1.0 / dt);
+        }
+        sorted_pairs(balls, substep.broadphase, &mut self.pairs);
+        let alike = balls
+            .uniform()
+            .map(|shape| Shares::new(shape.mass, shape.mass, rules.restitution()));
+        for &(first, second) in &self.pairs {
+            let (first, second) = (first as usize, second as usize);
+            let shares = alike
+                .unwrap_or_else(|| Shares::new(balls.mass[first], balls.mass[second], rules.restitution()));
+            if let Some(shares) = shares
+                && collide(balls, first, second, shares, dt)
+            {
+                substep.counters.collisions += 1;
+            }
+        }
+        walls(rules, balls, &self.accelerations, dt, substep.counters);
+        Ok(())
+    }
+}
+
+/// Seconds since a pair touches, from where it is now; None if it does not overlap.
+fn since(between: Vec2, relative: Vec2, reach: f64) -> Option<f64> {
+    let depth = reach * reach - between.square();
+    if depth <= 0.0 {
+        return None;
+    }
+    let along = between.dot(relative);
+    let speed = relative.square();
+    // The positive root of |d - w s|^2 = R^2; a pair at rest has touched for ever.
+    let root = (along * along + speed * depth).sqrt();
+    Some(if along > 0.0 {
+        (along + root) / speed
+    } else {
+        depth / (root - along)
+    })
+}
+
+fn collide(balls: &mut Balls, first: usize, second: usize, shares: Shares, dt: f64) -> bool {
+    let (p1, p2) = (balls.position[first], balls.position[second]);
+    let (mut v1, mut v2) = (balls.velocity[first], balls.velocity[second]);
+    // An earlier pair of this tick may have taken these two apart.
+    let Some(back) = since(p2 - p1, v2 - v1, balls.radius[first] + balls.radius[second]) else {
+        return false;
+    };
+    // A pair that overlapped before the tick began has no contact time in it: it is judged as it is.
+    let back = if back <= dt { back } else { 0.0 };
+    let along = normal(p1 - v1 * back, p2 - v2 * back);
+    let (u1, u2) = (v1, v2);
+    if !exchange(along, shares, &mut v1, &mut v2) {
+        return false;
+    }
+    balls.position[first] += (v1 - u1) * back;
+    balls.position[second] += (v2 - u2) * back;
+    balls.velocity[first] = v1;
+    balls.velocity[second] = v2;
+    true
+}
+
+/// Takes balls that reach beyond a wall back to it, in the order left, right, bottom, top.
+fn walls(rules: &Rules, balls: &mut Balls, accelerations: &[Vec2], dt: f64, counters: &mut Counters) {
+    if !rules.walls() {
+        return;
+    }
+    let [left, bottom, right, top] = rules.bounds();
+    for index in 0..balls.len() {
+        let radius = balls.radius[index];
+        let Vec2 { x, y } = balls.position[index];
+        if x - radius >= left && x + radius <= right && y - radius >= bottom && y + radius <= top {
+            continue;
+        }
+        let velocity = balls.velocity[index];
+        let acceleration = accelerations.get(index).copied().unwrap_or(Vec2::ZERO);
+        let mut x = Axis {
+            place: x,
+            velocity: velocity.x,
+            acceleration: acceleration.x,
+        };
+        let mut y = Axis {
+            place: y,
+            velocity: velocity.y,
+            acceleration: acceleration.y,
+        };
+        for (limit, inward) in [(left + radius, 1.0), (right - radius, -1.0)] {
+            counters.wall_hits += u64::from(x.bounce(limit, inward, rules.restitution(), dt));
+        }
+        for (limit, inward) in [(bottom + radius, 1.0), (top - radius, -1.0)] {
+            counters.wall_hits += u64::from(y.bounce(limit, inward, rules.restitution(), dt));
+        }
+        balls.position[index] = Vec2::new(x.place, y.place);
+        balls.velocity[index] = Vec2::new(x.velocity, y.velocity);
+    }
+}
+
+/// The motion of a ball at right angles to a wall, as it is at the end of the tick.
+struct Axis {
+    place: f64,
+    velocity: f64,
+    acceleration: f64,
+}
+
+impl Axis {
+    fn bounce(&mut self, limit: f64, inward: f64, restitution: f64, dt: f64) -> bool {
+        let depth = (limit - self.place) * inward;
+        if depth <= 0.0 {
+            return false;
+        }
+        let (speed, pull) = (-self.velocity * inward, -self.acceleration * inward);
+        // Going back s seconds, depth - speed s + pull s^2 / 2 = 0.
+        let root = speed * speed - 2.0 * pull * depth;
+        let back = if root >= 0.0 && speed + root.sqrt() > 0.0 {
+            2.0 * depth / (speed + root.sqrt())
+        } else {
+            dt
+        };
+        if back >= dt {
+            // It was beyond the wall before the tick began: judged as it is, like a pair.
+            if speed > 0.0 {
+                self.velocity *= -restitution;
+                return true;
+            }
+            return false;
+        }
+        let there = self.velocity - self.acceleration * back;
+        let after = -restitution * there;
+        self.velocity = after + self.acceleration * back;
+        self.place = limit + (after + self.acceleration * (0.5 * back)) * back;
+        true
+    }
+}

@@ -1,0 +1,209 @@
+//! What happens at a contact.
+//!
+//! Approaching balls exchange their normal velocities. Two cases would otherwise be infinitely many collisions:
+//!
+//! - *Rest.* No approach, but an acceleration into the contact: the contact bears it until the substep ends. So does
+//!   an approach no faster than a fall through a millionth of a millionth of the radius would give, which is rounding.
+//! - *Collapse* below restitution 1. A ball hit again within the contact time (1/32 of the substep) of its last hit
+//!   loses nothing (Luding & McNamara 1998, doi 10.1007/s100350050017), and one whose rebound would last less than
+//!   that comes to rest.
+//!
+//! Between kicks a third case appears: a ball whose path leads into the contact while the ball itself leaves it. It
+//! would be back within the substep; it is held there, and gets its velocity back at the end.
+
+use super::paths::{Motion, Paths};
+use crate::contacts::exchange::{Shares, normal};
+use crate::walls::Wall;
+use crate::{Balls, Vec2};
+
+/// Contact time, as a part of the substep.
+const CONTACT_TIME: f64 = 1.0 / 32.0;
+/// A fall through this part of a radius is taken for rounding.
+const ROUNDING_FALL: f64 = 1e-12;
+
+/// What a contact came to.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Outcome {
+    /// An impulse passed.
+    pub(super) impulse: bool,
+    /// The balls have new paths.
+    pub(super) changed: bool,
+}
+
+/// The law of contact of one substep.
+pub(super) struct Law {
+    restitution: f64,
+    contact_time: f64,
+}
+
+/// What becomes of the approach.
+enum Fate {
+    /// It is turned round, times this restitution.
+    Bounce(f64),
+    /// It ends, and the contact bears the acceleration.
+    Rest,
+    /// There is none; the path is stopped, the velocity kept for later.
+    Hold,
+    /// Nothing.
+    Pass,
+}
+
+impl Law {
+    pub(super) fn new(restitution: f64, length: f64) -> Law {
+        Law {
+            restitution,
+            contact_time: CONTACT_TIME * length,
+        }
+    }
+
+    /// `approach`: speed into the contact; `pressing`: acceleration into it, both per second.
+    fn fate(&self, approach: f64, pressing: f64, radius: f64, again: bool, motion: Motion) -> Fate {
+        if approach > 0.0 {
+            let after = self.restitution * approach;
+            let collapses = self.restitution < 1.0 && 2.0 * after < self.contact_time * pressing;
+            if pressing > 0.0 && (collapses || approach * approach <= 2.0 * pressing * ROUNDING_FALL * radius)
+            {
+                return Fate::Rest;
+            }
+            return Fate::Bounce(if again { 1.0 } else { self.restitution });
+        }
+        match motion {
+            Motion::Kicked if pressing > 0.0 && approach < 0.0 => Fate::Hold,
+            _ if pressing > 0.0 && approach == 0.0 => Fate::Rest,
+            _ => Fate::Pass,
+        }
+    }
+
+    fn is_again(&self, paths: &Paths, index: usize, time: f64) -> bool {
+        paths.hits[index] > 0 && time - paths.since[index] < self.contact_time
+    }
+
+    /// Two balls meet.
+    pub(super) fn pair(
+        &self,
+        paths: &mut Paths,
+        balls: &mut Balls,
+        first: usize,
+        second: usize,
+        time: f64,
+    ) -> Outcome {
+        const NOTHING: Outcome = Outcome {
+            impulse: false,
+            changed: false,
+        };
+        let (p1, path1) = paths.at(balls, first, time);
+        let (p2, path2) = paths.at(balls, second, time);
+        let along = normal(p1, p2);
+        let length = along.length();
+        let (v1, v2) = (
+            path1 + paths.ahead(first, time),
+            path2 + paths.ahead(second, time),
+        );
+        let approach = (v1 - v2).dot(along);
+        let pressing = if paths.motion == Motion::Straight {
+            0.0
+        } else {
+            (paths.acceleration[first] - paths.acceleration[second]).dot(along)
+        };
+        let again = self.is_again(paths, first, time) || self.is_again(paths, second, time);
+        let radius = balls.radius[first].min(balls.radius[second]);
+        let fate = self.fate(approach / length, pressing / length, radius, again, paths.motion);
+        let (m1, m2) = (balls.mass[first], balls.mass[second]);
+        let restitution = match fate {
+            Fate::Bounce(restitution) => restitution,
+            Fate::Rest | Fate::Hold => 0.0,
+            Fate::Pass => return NOTHING,
+        };
+        let Some(shares) = Shares::new(m1, m2, restitution) else {
+            return NOTHING;
+        };
+        let impulse = along * (approach / along.square());
+        let (w1, w2) = (v1 - impulse * shares.first, v2 + impulse * shares.second);
+        if matches!(fate, Fate::Bounce(_)) {
+            if (w1, w2) == (v1, v2) {
+                // Slower than the last bit of either velocity: nothing that can be exchanged.
+                return NOTHING;
+            }
+        } else {
+            support_pair(paths, balls, first, second, along);
+        }
+        if matches!(fate, Fate::Hold) {
+            paths.deferred.push((first, v1 - w1));
+            paths.deferred.push((second, v2 - w2));
+        }
+        let (path1, path2) = (w1 - paths.ahead(first, time), w2 - paths.ahead(second, time));
+        paths.turn(balls, first, time, p1, path1);
+        paths.turn(balls, second, time, p2, path2);
+        Outcome {
+            impulse: approach > 0.0,
+            changed: true,
+        }
+    }
+
+    /// A ball meets a wall.
+    pub(super) fn wall(
+        &self,
+        paths: &mut Paths,
+        balls: &mut Balls,
+        index: usize,
+        wall: &Wall,
+        time: f64,
+    ) -> Outcome {
+        let (place, path) = paths.at(balls, index, time);
+        let velocity = path + paths.ahead(index, time);
+        let approach = -velocity.dot(wall.inward);
+        let pressing = if paths.motion == Motion::Straight {
+            0.0
+        } else {
+            -paths.acceleration[index].dot(wall.inward)
+        };
+        let again = self.is_again(paths, index, time);
+        let fate = self.fate(approach, pressing, balls.radius[index], again, paths.motion);
+        let after = match fate {
+            Fate::Bounce(restitution) => wall.with_normal(velocity, restitution * approach),
+            Fate::Rest | Fate::Hold => {
+                paths.acceleration[index] = wall.with_normal(paths.acceleration[index], 0.0);
+                paths.supported[index] = true;
+                wall.with_normal(velocity, 0.0)
+            }
+            Fate::Pass => {
+                return Outcome {
+                    impulse: false,
+                    changed: false,
+                };
+            }
+        };
+        if matches!(fate, Fate::Hold) {
+            paths.deferred.push((index, velocity - after));
+        }
+        let path = after - paths.ahead(index, time);
+        paths.turn(balls, index, time, place, path);
+        Outcome {
+            impulse: approach > 0.0,
+            changed: true,
+        }
+    }
+}
+
+/// Takes from the accelerations of two balls what presses them together: all of it from the one that nothing bears,
+/// if the other rests on something; by their masses otherwise.
+fn support_pair(paths: &mut Paths, balls: &Balls, first: usize, second: usize, along: Vec2) {
+    let bears = |index: usize| balls.mass[index].is_infinite() || paths.supported[index];
+    let (one, two) = (bears(first), bears(second));
+    let mass = |index: usize, bears: bool, other: bool| {
+        if bears && !other {
+            f64::INFINITY
+        } else {
+            balls.mass[index]
+        }
+    };
+    let Some(shares) = Shares::new(mass(first, one, two), mass(second, two, one), 0.0) else {
+        return;
+    };
+    let pressing = (paths.acceleration[first] - paths.acceleration[second]).dot(along);
+    let taken = along * (pressing / along.square());
+    paths.acceleration[first] -= taken * shares.first;
+    paths.acceleration[second] += taken * shares.second;
+    paths.supported[first] |= two;
+    paths.supported[second] |= one;
+}

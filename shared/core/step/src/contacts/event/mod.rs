@@ -1,0 +1,208 @@
+//! `event`: every collision inside the tick at its own time, in time order (event-driven hard discs, after Alder &
+//! Wainwright 1959, doi 10.1063/1.1730376, cut at the ticks so that nothing but the state outlives one).
+//!
+//! Without forces, or under a constant acceleration, balls move along parabolas and all is exact but for rounding.
+//! Under other forces a tick is kick - drift with collisions - kick; a hit at time t of a tick of length h exchanges
+//! the velocities v + a (t - h/2) that the balls have there, which keeps second order across hits.
+//!
+//! Equal times are taken in order of (lower id, higher id), walls behind balls. What rounding leaves overlapping
+//! collides at once if it approaches and is left alone if it recedes (Bannerman et al., arXiv 1211.6718). Contacts at
+//! rest and collapse below restitution 1: see [`contact`].
+
+mod contact;
+mod paths;
+mod predict;
+mod queue;
+
+use super::{Contacts, EVENT_LIMIT, Substep};
+use crate::broadphase::{Discs, Pair, Reach};
+use crate::force::{Acceleration, Body, Field};
+use crate::walls::Walls;
+use crate::{Error, Vec2};
+
+use contact::Law;
+use paths::{Motion, Paths};
+use queue::{Event, Partner, Queue};
+
+#[derive(Default)]
+pub(super) struct EventDriven {
+    paths: Paths,
+    queue: Queue,
+    pairs: Vec<Pair>,
+    near: Vec<u32>,
+}
+
+impl Contacts for EventDriven {
+    fn advance(&mut self, substep: &mut Substep<'_>) -> Result<(), Error> {
+        self.begin(substep);
+        self.predict_all(substep);
+        self.run(substep)?;
+        self.end(substep);
+        Ok(())
+    }
+}
+
+impl EventDriven {
+    fn begin(&mut self, substep: &mut Substep<'_>) {
+        let balls = &mut *substep.balls;
+        match substep.field {
+            Field::None(_) => self
+                .paths
+                .begin(balls, substep.dt, Motion::Straight, |_| Vec2::ZERO),
+            Field::Constant(field) => self.paths.begin(balls, substep.dt, Motion::Curved, |_| field.0),
+            Field::Sum(field) => {
+                // Constant for all but fixed balls: still exact, by the slower roots.
+                let motion = if field.is_constant() {
+                    Motion::Curved
+                } else {
+                    Motion::Kicked
+                };
+                self.paths
+                    .begin(balls, substep.dt, motion, |body| field.at(substep.time, &body));
+            }
+        }
+        if self.paths.motion == Motion::Kicked {
+            for (velocity, acceleration) in balls.velocity.iter_mut().zip(&self.paths.acceleration) {
+                *velocity += *acceleration * (0.5 * substep.dt);
+            }
+        }
+        self.paths.sweep(balls);
+    }
+
+    fn predict_all(&mut self, substep: &mut Substep<'_>) {
+        let balls = &*substep.balls;
+        let walls = Walls::of(substep.rules);
+        self.queue.clear();
+        let discs = Discs {
+            center: &self.paths.center,
+            reach: Reach::Each(&self.paths.reach),
+        };
+        self.pairs.clear();
+        substep.broadphase.build(&discs);
+        substep.broadphase.pairs(&discs, &mut self.pairs);
+        for &(first, second) in &self.pairs {
+            if let Some(time) = predict::pair(&self.paths, balls, first as usize, second as usize) {
+                self.queue
+                    .push(Event::new(time, first, Partner::ball(second), &self.paths.hits));
+            }
+        }
+        if let Some(walls) = walls {
+            for index in 0..balls.len() {
+                let (center, reach) = (self.paths.center[index], self.paths.reach[index]);
+                if !walls.hold(center, reach) {
+                    predict_walls(&self.paths, balls, &walls, index, &mut self.queue);
+                }
+            }
+        }
+        self.queue.settle();
+    }
+
+    fn run(&mut self, substep: &mut Substep<'_>) -> Result<(), Error> {
+        let walls = Walls::of(substep.rules);
+        let law = Law::new(substep.rules.restitution(), substep.dt);
+        let mut count = 0;
+        while let Some(event) = self.queue.next(&self.paths.hits) {
+            count += 1;
+            if count > EVENT_LIMIT {
+                return Err(event_limit(substep, &event));
+            }
+            let first = event.first as usize;
+            match event.partner.as_ball() {
+                Some(second) => {
+                    let done = law.pair(&mut self.paths, substep.balls, first, second, event.time);
+                    substep.counters.collisions += u64::from(done.impulse);
+                    if done.changed {
+                        self.predict_again(substep, walls.as_ref(), first);
+                        self.predict_again(substep, walls.as_ref(), second);
+                    }
+                }
+                None => {
+                    let Some(wall) = walls.as_ref().map(|walls| walls.wall(event.partner.as_wall())) else {
+                        continue;
+                    };
+                    let done = law.wall(&mut self.paths, substep.balls, first, &wall, event.time);
+                    substep.counters.wall_hits += u64::from(done.impulse);
+                    if done.changed {
+                        self.predict_again(substep, walls.as_ref(), first);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Puts a ball that was hit elsewhere in the tree and predicts its next collisions.
+    fn predict_again(&mut self, substep: &mut Substep<'_>, walls: Option<&Walls>, index: usize) {
+        let balls = &*substep.balls;
+        self.paths.sweep_one(balls, index);
+        let (center, reach) = (self.paths.center[index], self.paths.reach[index]);
+        substep.broadphase.relocate(index, center, reach);
+        self.near.clear();
+        substep.broadphase.query(center, reach, &mut self.near);
+        for &other in &self.near {
+            let other = other as usize;
+            if other == index {
+                continue;
+            }
+            let (first, second) = (index.min(other), index.max(other));
+            if let Some(time) = predict::pair(&self.paths, balls, first, second) {
+                self.queue.push(Event::new(
+                    time,
+                    first as u32,
+                    Partner::ball(second as u32),
+                    &self.paths.hits,
+                ));
+            }
+        }
+        if let Some(walls) = walls
+            && !walls.hold(center, reach)
+        {
+            predict_walls(&self.paths, balls, walls, index, &mut self.queue);
+        }
+    }
+
+    fn end(&mut self, substep: &mut Substep<'_>) {
+        let balls = &mut *substep.balls;
+        self.paths.end(balls);
+        if let (Motion::Kicked, Field::Sum(field)) = (self.paths.motion, substep.field) {
+            let (time, half) = (substep.time + substep.dt, 0.5 * substep.dt);
+            for index in 0..balls.len() {
+                let first = self.paths.kicks[index];
+                // As in velocity Verlet: a force of velocity sees the velocity that the first kick predicts.
+                let body = Body {
+                    index,
+                    mass: balls.mass[index],
+                    position: balls.position[index],
+                    velocity: balls.velocity[index] + first * half,
+                };
+                // What a resting contact has taken from the first kick, it takes from the second.
+                let taken = first - self.paths.acceleration[index];
+                balls.velocity[index] += (field.at(time, &body) - taken) * half;
+            }
+            for &(index, velocity) in &self.paths.deferred {
+                balls.velocity[index] += velocity;
+            }
+        }
+    }
+}
+
+fn predict_walls(paths: &Paths, balls: &crate::Balls, walls: &Walls, index: usize, queue: &mut Queue) {
+    for number in 0..4 {
+        if let Some(time) = predict::wall(paths, balls, index, &walls.wall(number)) {
+            queue.push(Event::new(time, index as u32, Partner::wall(number), &paths.hits));
+        }
+    }
+}
+
+#[cold]
+fn event_limit(substep: &Substep<'_>, event: &Event) -> Error {
+    let id = &substep.balls.id;
+    let first = id[event.first as usize];
+    let second = event.partner.as_ball().map_or(first, |second| id[second]);
+    Error::EventLimit {
+        tick: substep.tick,
+        pair: (first, second),
+        time: event.time,
+        limit: EVENT_LIMIT,
+    }
+}

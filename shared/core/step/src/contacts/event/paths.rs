@@ -1,0 +1,185 @@
+//! The paths of the balls inside a substep.
+//!
+//! While a substep runs, a ball's position and velocity are those of the start of the piece of path that it is on,
+//! and `since` is the time at which that piece began. A collision time is computed from two pieces alone, so it does
+//! not depend on when, or by which broadphase, the pair was looked at.
+
+use crate::force::Body;
+use crate::{Balls, Vec2};
+
+/// What a piece of path is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) enum Motion {
+    /// No force: a straight line.
+    #[default]
+    Straight,
+    /// A constant acceleration per ball: a parabola.
+    Curved,
+    /// Straight between two kicks.
+    Kicked,
+}
+
+#[derive(Default)]
+pub(super) struct Paths {
+    pub(super) motion: Motion,
+    /// Length of the substep.
+    pub(super) length: f64,
+    pub(super) since: Vec<f64>,
+    /// How often each ball was hit in this substep.
+    pub(super) hits: Vec<u32>,
+    /// Along the path if curved, in the kicks if kicked; less what resting contacts have taken. Unused if straight.
+    pub(super) acceleration: Vec<Vec2>,
+    /// The first kick's acceleration, untouched. Only if kicked.
+    pub(super) kicks: Vec<Vec2>,
+    /// Balls that rest on something, which bears what they bear.
+    pub(super) supported: Vec<bool>,
+    /// Velocities that balls get back at the end of the substep: see [`super::contact`].
+    pub(super) deferred: Vec<(usize, Vec2)>,
+    /// A disc around all that is left of each ball's path.
+    pub(super) center: Vec<Vec2>,
+    pub(super) reach: Vec<f64>,
+}
+
+impl Paths {
+    pub(super) fn begin(
+        &mut self,
+        balls: &Balls,
+        length: f64,
+        motion: Motion,
+        acceleration: impl Fn(Body) -> Vec2,
+    ) {
+        let count = balls.len();
+        self.motion = motion;
+        self.length = length;
+        self.since.clear();
+        self.since.resize(count, 0.0);
+        self.hits.clear();
+        self.hits.resize(count, 0);
+        self.acceleration.clear();
+        self.kicks.clear();
+        self.supported.clear();
+        self.deferred.clear();
+        if motion == Motion::Straight {
+            return;
+        }
+        self.supported.resize(count, false);
+        self.acceleration.extend((0..count).map(|index| {
+            let (position, velocity) = (balls.position[index], balls.velocity[index]);
+            acceleration(Body {
+                index,
+                mass: balls.mass[index],
+                position,
+                velocity,
+            })
+        }));
+        if motion == Motion::Kicked {
+            self.kicks.extend_from_slice(&self.acceleration);
+        }
+    }
+
+    /// Acceleration along the path.
+    #[inline]
+    pub(super) fn curvature(&self, index: usize) -> Vec2 {
+        if self.motion == Motion::Curved {
+            self.acceleration[index]
+        } else {
+            Vec2::ZERO
+        }
+    }
+
+    /// Place and velocity along the path at a time of the substep.
+    #[inline]
+    pub(super) fn at(&self, balls: &Balls, index: usize, time: f64) -> (Vec2, Vec2) {
+        let (position, velocity) = (balls.position[index], balls.velocity[index]);
+        let s = time - self.since[index];
+        if self.motion == Motion::Curved {
+            let a = self.acceleration[index];
+            return (position + velocity * s + a * (0.5 * s * s), velocity + a * s);
+        }
+        (position + velocity * s, velocity)
+    }
+
+    /// How much faster a ball moves than along its path: between kicks, the path has the velocity of the middle.
+    #[inline]
+    pub(super) fn ahead(&self, index: usize, time: f64) -> Vec2 {
+        if self.motion == Motion::Kicked {
+            return self.acceleration[index] * (time - 0.5 * self.length);
+        }
+        Vec2::ZERO
+    }
+
+    /// Begins a new piece of path.
+    pub(super) fn turn(&mut self, balls: &mut Balls, index: usize, time: f64, place: Vec2, velocity: Vec2) {
+        balls.position[index] = place;
+        balls.velocity[index] = velocity;
+        self.since[index] = time;
+        self.hits[index] = self.hits[index].wrapping_add(1);
+    }
+
+    /// Discs around all paths.
+    pub(super) fn sweep(&mut self, balls: &Balls) {
+        let (length, motion) = (self.length, self.motion);
+        self.center.clear();
+        self.reach.clear();
+        if motion != Motion::Curved {
+            // In one go over the arrays: at this point every path is straight and whole.
+            let half = 0.5 * length;
+            self.center.extend(
+                balls
+                    .position
+                    .iter()
+                    .zip(&balls.velocity)
+                    .map(|(&p, &v)| p + v * half),
+            );
+            match balls.uniform() {
+                Some(shape) => self.reach.extend(
+                    balls
+                        .velocity
+                        .iter()
+                        .map(|v| widen(shape.radius, v.length() * half)),
+                ),
+                None => {
+                    let sized = balls.radius.iter().zip(&balls.velocity);
+                    self.reach
+                        .extend(sized.map(|(&radius, v)| widen(radius, v.length() * half)));
+                }
+            }
+            return;
+        }
+        for index in 0..balls.len() {
+            let (center, reach) = self.disc(balls, index);
+            self.center.push(center);
+            self.reach.push(reach);
+        }
+    }
+
+    /// The disc around what is left of one path.
+    pub(super) fn sweep_one(&mut self, balls: &Balls, index: usize) {
+        (self.center[index], self.reach[index]) = self.disc(balls, index);
+    }
+
+    fn disc(&self, balls: &Balls, index: usize) -> (Vec2, f64) {
+        let start = balls.position[index];
+        let (end, _) = self.at(balls, index, self.length);
+        let left = self.length - self.since[index];
+        // A parabola leaves its chord by at most |a| t^2 / 8.
+        let sag = self.curvature(index).length() * (left * left * 0.125);
+        (
+            (start + end) * 0.5,
+            widen(balls.radius[index], (end - start).length() * 0.5 + sag),
+        )
+    }
+
+    /// Moves all balls to the end of the substep.
+    pub(super) fn end(&self, balls: &mut Balls) {
+        for index in 0..balls.len() {
+            (balls.position[index], balls.velocity[index]) = self.at(balls, index, self.length);
+        }
+    }
+}
+
+/// A little more than both, so that rounding leaves no touch outside the disc.
+#[inline]
+fn widen(radius: f64, travel: f64) -> f64 {
+    (radius + travel) * (1.0 + 1e-9)
+}

@@ -1,0 +1,78 @@
+//! Collision times. A pair whose accelerations are equal, and every wall, is a quadratic root.
+
+use super::paths::Paths;
+use crate::contacts::root::first_fall;
+use crate::walls::Wall;
+use crate::{Balls, Vec2};
+
+/// When two balls collide next, if they do before the substep ends.
+pub(super) fn pair(paths: &Paths, balls: &Balls, first: usize, second: usize) -> Option<f64> {
+    let reach = match balls.uniform() {
+        Some(shape) if shape.mass.is_infinite() => return None,
+        Some(shape) => shape.radius + shape.radius,
+        None if balls.mass[first].is_infinite() && balls.mass[second].is_infinite() => return None,
+        None => balls.radius[first] + balls.radius[second],
+    };
+    let start = paths.since[first].max(paths.since[second]);
+    let (p1, v1) = paths.at(balls, first, start);
+    let (p2, v2) = paths.at(balls, second, start);
+    let (between, relative) = (p2 - p1, v2 - v1);
+    let left = paths.length - start;
+    let bend = paths.curvature(second) - paths.curvature(first);
+    let wait = if bend == Vec2::ZERO {
+        straight(between, relative, reach)?
+    } else {
+        bent(between, relative, bend, reach, left)?
+    };
+    (wait <= left).then_some(start + wait)
+}
+
+/// The smaller root of |d + w t| = R, in the form that does not cancel.
+#[inline]
+fn straight(between: Vec2, relative: Vec2, reach: f64) -> Option<f64> {
+    let approach = -between.dot(relative);
+    if approach <= 0.0 {
+        return None;
+    }
+    let gap = between.square() - reach * reach;
+    if gap <= 0.0 {
+        return Some(0.0);
+    }
+    let root = approach * approach - relative.square() * gap;
+    (root >= 0.0).then(|| gap / (approach + root.sqrt()))
+}
+
+/// The first time at which |d + w t + b t^2 / 2| falls to R; for a pair that overlaps by rounding, to what it is now.
+fn bent(between: Vec2, relative: Vec2, bend: Vec2, reach: f64, left: f64) -> Option<f64> {
+    let gap = (between.square() - reach * reach).max(0.0);
+    let slope = 2.0 * between.dot(relative);
+    let second = relative.square() + between.dot(bend);
+    let (third, fourth) = (relative.dot(bend), 0.25 * bend.square());
+    if gap > 0.0 {
+        return first_fall(&[gap, slope, second, third, fourth], left);
+    }
+    if slope < 0.0 || (slope == 0.0 && second < 0.0) {
+        return Some(0.0);
+    }
+    // The root at 0 is divided out: what is left falls when the pair is back.
+    first_fall(&[slope, second, third, fourth, 0.0], left)
+}
+
+/// When a ball hits a wall next, if it does before the substep ends.
+pub(super) fn wall(paths: &Paths, balls: &Balls, index: usize, wall: &Wall) -> Option<f64> {
+    let start = paths.since[index];
+    // What reaches beyond the wall touches it where it is.
+    let gap = wall.gap(balls.position[index], balls.radius[index]).max(0.0);
+    let away = balls.velocity[index].dot(wall.inward);
+    let pull = -paths.curvature(index).dot(wall.inward);
+    let wait = if away < 0.0 {
+        // Where the pull is away from the wall, the ball may turn before it.
+        let root = away * away + 2.0 * pull * gap;
+        (root >= 0.0).then(|| 2.0 * gap / (root.sqrt() - away))?
+    } else if pull > 0.0 {
+        (away + (away * away + 2.0 * pull * gap).sqrt()) / pull
+    } else {
+        return None;
+    };
+    (wait <= paths.length - start).then_some(start + wait)
+}
