@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,12 +23,14 @@ class Start:
     mass: Floats
     gravity: tuple[float, float] = (0.0, 0.0)
     restitution: float = 1.0
-    moving: int = field(init=False)
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "moving", int(np.isfinite(self.mass).sum()))
+    @property
+    def moving(self) -> int:
+        """Balls that are not pegs."""
+        return int(np.isfinite(self.mass).sum())
 
     def oracle(self, bits: int) -> Oracle:
+        """Ready to run from here."""
         return Oracle(
             self.box,
             self.position,

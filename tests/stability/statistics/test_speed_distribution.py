@@ -1,4 +1,4 @@
-"""A few discs share a fixed energy: shares are Beta(1, n - 1), not what Maxwell and Boltzmann have for many."""
+"""A few discs share a fixed energy: shares are Beta(1, n - 1), not Maxwell and Boltzmann's."""
 
 from __future__ import annotations
 

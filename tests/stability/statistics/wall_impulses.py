@@ -20,8 +20,8 @@ Floats = NDArray[np.float64]
 class WallImpulses:
     """Advance a world, handing out the impulse of each wall hit.
 
-    With `alone`, hits are set apart from collisions too and an impulse is that of the one ball that was hit, so
-    that conservation of momentum in collisions is not taken for granted.
+    With `alone`, hits are set apart from collisions too, and an impulse is that of the one ball that was
+    hit, so that conservation of momentum in collisions is not taken for granted.
     """
 
     def __init__(
