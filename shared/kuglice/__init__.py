@@ -25,6 +25,7 @@ from kuglice.scene import (
     Spring,
     ThrustForce,
 )
+from kuglice.version import VERSION
 from kuglice.world import World
 
 __all__ = [
@@ -58,7 +59,7 @@ __all__ = [
     "scenes",
 ]
 
-__version__ = "0.1.0"
+__version__ = VERSION
 
 LATER = ("loop", "picture", "protocol", "replay")
 """Modules that most programs never need: `kuglice.loop` imports on first use."""

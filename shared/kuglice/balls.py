@@ -28,7 +28,8 @@ class Balls:
     """Balls in id order: position and velocity (n, 2), radius and mass (n,), all float64.
 
     Scalars, and one row of two for position and velocity, are broadcast. Mass is pi radius^2 unless given; an
-    infinite mass makes a peg. Raises SceneError for a shape, a type, a NaN, or a radius or mass that is not positive.
+    infinite mass makes a peg. Raises SceneError for a shape, a type, a NaN, or a radius or mass that is
+    not positive.
     """
 
     __slots__ = ("_mass", "_position", "_radius", "_velocity")

@@ -79,7 +79,7 @@ class World:
 
     @contextmanager
     def view(self) -> Iterator[_core.Lease]:
-        """Lend read-only zero-copy arrays: position, velocity, radius, mass, id. Stepping meanwhile: LentError."""
+        """Lend read-only zero-copy arrays: position, velocity, radius, mass, id; no stepping meanwhile."""
         lease = self._core.lend()
         try:
             yield lease

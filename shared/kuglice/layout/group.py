@@ -13,7 +13,10 @@ from kuglice.layout.stream import DIRECTION, RADIUS, RandomStream, directions
 from kuglice.schema.numbers import NonNegative, Point, Positive, Whole
 from kuglice.schema.problems import Problem, refuse
 
-__all__ = ["Floats", "Placement"]
+__all__ = ["MOST_BALLS", "Floats", "Placement"]
+
+MOST_BALLS = 10_000_000
+"""Of one group."""
 
 Floats = NDArray[np.float64]
 Range = tuple[Positive, Positive]

@@ -9,9 +9,9 @@ from pydantic import Field
 
 from kuglice.balls import Balls
 from kuglice.errors import SceneError
-from kuglice.layout.group import Placement
+from kuglice.layout.group import MOST_BALLS, Placement
 from kuglice.schema.numbers import Count, Point, Positive
-from kuglice.schema.problems import raises
+from kuglice.schema.problems import Problem, raises, refusal
 
 __all__ = ["LatticeGroup"]
 
@@ -20,20 +20,23 @@ __all__ = ["LatticeGroup"]
 class LatticeGroup(Placement):
     """`columns` x `rows` balls, the first at `origin`, then rightwards, then upwards.
 
-    `spacing` is the distance of neighbouring columns, or [columns, rows]. A hexagonal lattice moves every other
-    row by half a column and leaves out its last ball; unless said otherwise, its rows are sqrt(3)/2 of a column
-    apart.
+    `spacing` is the distance of neighbouring columns, or [columns, rows]. A hexagonal lattice moves
+    every other row by half a column and leaves out its last ball; unless said otherwise, its rows are
+    sqrt(3)/2 of a column apart.
     """
 
     layout: Literal["lattice"] = "lattice"
     arrangement: Literal["square", "hexagonal"] = "square"
-    columns: Annotated[Count, Field(le=1_000_000)]
-    rows: Annotated[Count, Field(le=1_000_000)]
+    columns: Annotated[Count, Field(le=MOST_BALLS)]
+    rows: Annotated[Count, Field(le=MOST_BALLS)]
     origin: Point
     spacing: Positive | tuple[Positive, Positive]
 
     def place(self, box: tuple[float, float, float, float], present: Balls) -> Balls:
         """On the lattice, whatever else is there."""
+        if self.columns * self.rows > MOST_BALLS:
+            bound = f"times columns = {self.columns} must be at most {MOST_BALLS}"
+            raise refusal("group", [Problem(("rows",), self.rows, bound)])
         wide, high = self._steps()
         row, column = np.divmod(np.arange(self.columns * self.rows), self.columns)
         across = column * 1.0

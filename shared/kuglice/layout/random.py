@@ -9,7 +9,7 @@ from pydantic import Field
 
 from kuglice.balls import PI, Balls
 from kuglice.errors import SceneError
-from kuglice.layout.group import Placement
+from kuglice.layout.group import MOST_BALLS, Placement
 from kuglice.layout.sequential import add_sequentially
 from kuglice.layout.slot_grid import SlotGrid
 from kuglice.layout.stream import POSITION, RandomStream
@@ -31,7 +31,7 @@ class RandomGroup(Placement):
     """
 
     layout: Literal["random"] = "random"
-    count: Annotated[Count, Field(le=10_000_000)]
+    count: Annotated[Count, Field(le=MOST_BALLS)]
     area: Box | None = None
     """Left, bottom, right, top."""
 

@@ -21,7 +21,7 @@ class TriangleGroup(Placement):
     """`rows` rows of 1, 2, 3, ... balls, the first at `apex`, the rest rightwards of it, `spacing` apart."""
 
     layout: Literal["triangle"] = "triangle"
-    rows: Annotated[Count, Field(le=10_000)]
+    rows: Annotated[Count, Field(le=4_000)]
     apex: Point
     spacing: Positive
 

@@ -30,8 +30,8 @@ class Scene(BaseModel):
     """Balls in a box (left, bottom, right, top), the forces on them, and what clients may do.
 
     Give either `balls` or `groups`: recipes from which the balls are placed. Raises SceneError, which lists
-    every problem with its key, value and bound: a wrong key, type, range or NaN, a ball outside the box, and an
-    overlap at the start unless `allow_overlap`.
+    every problem with its key, value and bound: a wrong key, type, range or NaN, a ball outside the box, and
+    an overlap at the start unless `allow_overlap`.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")

@@ -28,8 +28,10 @@ def find(text: str) -> Scene:
     values = dict(_parameter(name, make, part) for part in given.split(",") if part)
     try:
         return make(**values)
-    except (ArithmeticError, MemoryError) as error:
-        # A size of 0 or of 1e300 is stopped by arithmetic before any schema sees it.
+    except SceneError:
+        raise
+    except (ArithmeticError, ValueError, MemoryError) as error:
+        # A size of 0, -1 or 1e300 is stopped by arithmetic before any schema sees it.
         raise SceneError(f"scene {text!r}: these parameters make no scene: {error}") from error
 
 

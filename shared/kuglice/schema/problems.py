@@ -19,7 +19,10 @@ Schema = TypeVar("Schema", bound=type)
 Raised = TypeVar("Raised", bound=KugliceError)
 Key = tuple[int | str, ...]
 SHOWN_CHARACTERS = 60
-TAGGED = ("forces", "groups")
+TAGGED = {
+    "forces": ("gravity", "drag", "attractor", "spring", "thrust", "attract"),
+    "groups": ("random", "lattice", "triangle", "listed"),
+}
 """Lists whose items are told apart by a tag, which pydantic inserts into the key."""
 
 
@@ -107,7 +110,7 @@ def _sentence(details: ErrorDetails, keys: tuple[str, ...]) -> str:
 
 
 def _path(key: Key) -> str:
-    if len(key) > 2 and key[0] in TAGGED and isinstance(key[1], int):
+    if len(key) > 2 and key[2] in TAGGED.get(str(key[0]), ()):
         key = (*key[:2], *key[3:])
     text = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in key)
     return text.removeprefix(".")

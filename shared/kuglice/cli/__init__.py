@@ -1,0 +1,24 @@
+"""The command line: `kuglice COMMAND`. Each room brings its own commands."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+from kuglice.errors import KugliceError
+
+__all__ = ["main"]
+
+REFUSED = 2
+"""Exit code for what a user can put right: the same as for a wrong option."""
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run one command. An error of this package is one line on stderr and exit code 2, never a traceback."""
+    from kuglice.cli.app import build  # noqa: PLC0415 - other rooms import this package for its parts
+
+    try:
+        build()(args=arguments, prog_name="kuglice")
+    except KugliceError as error:
+        print(f"kuglice: {error}", file=sys.stderr)
+        raise SystemExit(REFUSED) from None

@@ -1,0 +1,65 @@
+"""The typer app, put together from the commands of all rooms."""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+from importlib.metadata import EntryPoint, entry_points
+from importlib.util import find_spec
+from typing import Annotated
+
+import typer
+
+from kuglice.version import VERSION
+
+__all__ = ["GROUP", "build"]
+
+GROUP = "kuglice.commands"
+"""Entry points: modules with `register(app)`."""
+OWN = ("scenes", "plan", "replay", "demo")
+
+HELP = """Colliding balls in the plane: bit-equal on every machine, interactive, and over a network.
+
+A SCENE is a TOML file, or the name of a built-in scene with parameters if you like: gas, arena,
+gas:n=2000,packing=0.5. `kuglice scenes` lists them.
+"""
+
+
+def build() -> typer.Typer:
+    """All commands that are installed."""
+    app = typer.Typer(
+        help=HELP,
+        no_args_is_help=True,
+        context_settings={"help_option_names": ["-h", "--help"]},
+        pretty_exceptions_enable=False,
+        rich_markup_mode=None,
+    )
+    app.callback()(_options)
+    for name in OWN:
+        if find_spec(f"kuglice.cli.{name}") is not None:
+            import_module(f"kuglice.cli.{name}").register(app)
+    for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name):
+        _register(app, entry)
+    return app
+
+
+def _register(app: typer.Typer, entry: EntryPoint) -> None:
+    """A room that cannot be imported costs its own commands only."""
+    try:
+        entry.load().register(app)
+    except ImportError as error:
+        print(f"kuglice: the commands of {entry.value} are missing: {error}", file=sys.stderr)
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        print(f"kuglice {VERSION}")
+        raise typer.Exit
+
+
+def _options(
+    version: Annotated[
+        bool, typer.Option("--version", is_eager=True, callback=_show_version, help="Print the version.")
+    ] = False,
+) -> None:
+    """Options of every command."""

@@ -1,0 +1,41 @@
+"""`kuglice plan SCENE`: what would compute it, and why."""
+
+from __future__ import annotations
+
+import json
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from kuglice.plan import plan as choose
+from kuglice.scenes import find
+
+__all__ = ["register"]
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command("plan")(plan)
+
+
+def plan(
+    scene: Annotated[str, typer.Argument(help="A TOML file or a built-in scene.", metavar="SCENE")],
+    as_json: Annotated[bool, typer.Option("--json", help="The same figures as JSON.")] = False,
+) -> None:
+    """Show the model that would compute a scene, with a reason for every choice.
+
+    A scene may pin parts of it in its table [model].
+    """
+    found = find(scene)
+    model = choose(found)
+    if as_json:
+        print(json.dumps({"scene": scene, "balls": len(found.balls), **model.to_message()}, indent=2))
+        return
+    table = Table(title=f"{found.title or scene}: {model}", title_justify="left", show_header=False)
+    table.add_column(style="bold", no_wrap=True)
+    table.add_column()
+    for reason in model.reasons:
+        table.add_row(*reason.split(": ", 1))
+    Console().print(table)
