@@ -1,0 +1,95 @@
+"""Queries to the server, asked now and answered later: the client goes on meanwhile."""
+
+from __future__ import annotations
+
+import threading
+from typing import Any
+
+import zenoh
+
+from kuglice.errors import JoinError, ProtocolError
+from kuglice.protocol import Assembly, Message, Part, Refusal, Whole, decode, encode
+from kuglice_client.traffic import Traffic
+
+__all__ = ["Asked"]
+
+MAX_REPLIES = 4096
+POLL_SECONDS = 0.001
+
+
+class Asked:
+    """One query under way."""
+
+    def __init__(
+        self,
+        session: zenoh.Session,
+        key: str,
+        request: Message | None,
+        *,
+        traffic: Traffic,
+        timeout: float = 5.0,
+    ) -> None:
+        self._key = key
+        self._traffic = traffic
+        self._replies: list[bytes] = []
+        self._handler: Any = session.get(
+            key,
+            zenoh.handlers.FifoChannel(MAX_REPLIES),
+            # Parts come under one key, and only without consolidation do all of them arrive.
+            consolidation=zenoh.ConsolidationMode.NONE,
+            timeout=timeout,
+            payload=None if request is None else encode(request),
+            congestion_control=zenoh.CongestionControl.BLOCK,
+        )
+
+    def poll(self) -> list[bytes] | None:
+        """All replies once the last one is there, None before. Raises JoinError if refused or not answered."""
+        while True:
+            try:
+                reply = self._handler.try_recv()
+            except zenoh.ZError:  # the channel is closed: that was all
+                if not self._replies:
+                    raise JoinError(f"{self._key}: nobody answers") from None
+                return self._replies
+            if reply is None:
+                return None
+            if reply.err is not None:
+                raise JoinError(f"{self._key}: {_reason(reply.err.payload.to_bytes())}")
+            data = reply.ok.payload.to_bytes()
+            self._traffic.received["joining"] += len(data)
+            self._replies.append(data)
+
+    def wait(self, stop: threading.Event) -> list[bytes]:
+        """The replies, waited for. Raises JoinError, also when `stop` is set meanwhile."""
+        while (replies := self.poll()) is None:
+            if stop.wait(POLL_SECONDS):
+                raise JoinError(f"{self._key}: stopped while asking")
+        return replies
+
+    def poll_whole(self) -> Whole | None:
+        """As `poll`, with the parts put together. Raises JoinError if some are missing."""
+        replies = self.poll()
+        return None if replies is None else self._assembled(replies)
+
+    def wait_whole(self, stop: threading.Event) -> Whole:
+        """As `wait`, with the parts put together. Raises JoinError if some are missing."""
+        return self._assembled(self.wait(stop))
+
+    def _assembled(self, replies: list[bytes]) -> Whole:
+        assembly = Assembly()
+        try:
+            for reply in replies:
+                whole = assembly.add(decode(reply, Part))
+                if whole is not None:
+                    return whole
+        except ProtocolError as error:
+            raise JoinError(f"{self._key}: {error}") from error
+        raise JoinError(f"{self._key}: {len(replies)} parts came, and some are missing")
+
+
+def _reason(payload: bytes) -> str:
+    try:
+        return decode(payload, Refusal).reason
+    except ProtocolError:
+        # Zenoh's own errors, a timeout for one, are plain text.
+        return payload[:200].decode("utf-8", "replace")

@@ -1,0 +1,160 @@
+"""`kuglice client`: join a server, play or watch."""
+
+from __future__ import annotations
+
+import json
+import random
+import secrets
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from kuglice.cli.figures import print_figures
+from kuglice.cli.logs import STDERR, log_to_stderr
+from kuglice.cli.stop import stop_on_signals
+from kuglice.errors import KugliceError
+from kuglice_client.bots import BOTS
+from kuglice_client.client import Client, ClientSettings
+
+if TYPE_CHECKING:
+    from kuglice_client.filming import Film
+
+__all__ = ["register"]
+
+FINISH_SECONDS = 600.0
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command("client")(client)
+
+
+def client(
+    connect: Annotated[
+        list[str] | None, typer.Option(help="Endpoint of the server. [default: tcp/127.0.0.1:7447]")
+    ] = None,
+    world: Annotated[
+        str | None, typer.Option(help="World to join. [default: the only one served there]")
+    ] = None,
+    name: Annotated[str | None, typer.Option(help="Name to play under. [default: made up for a bot]")] = None,
+    bot: Annotated[
+        str | None,
+        typer.Option(help=f"Who plays: {', '.join(BOTS)}. Without bot and name, you are a spectator."),
+    ] = None,
+    seconds: Annotated[
+        float | None, typer.Option(help="Leave after this long. [default: on SIGINT or SIGTERM]")
+    ] = None,
+    wait: Annotated[float, typer.Option(help="Seconds to keep trying to join.")] = 10.0,
+    render: Annotated[
+        Path | None, typer.Option(help="Film what is seen: .mp4, .webm, .gif or a directory.")
+    ] = None,
+    fps: Annotated[int, typer.Option(min=1, max=240, help="Frames per second of the film.")] = 30,
+    size: Annotated[str, typer.Option(help="Width and height of the film in pixels.")] = "1280x720",
+    style: Annotated[str, typer.Option(help="discs or fluid.")] = "discs",
+    overlay: Annotated[
+        list[str] | None, typer.Option(help="tick, tree; may be repeated. [default: tick]")
+    ] = None,
+    trails: Annotated[float, typer.Option(help="Seconds after which a trail has faded, 0 for none.")] = 0.0,
+    still_every: Annotated[
+        float, typer.Option(help="Seconds between PNG frames beside the film, 0 for none.")
+    ] = 0.0,
+    lose: Annotated[
+        float, typer.Option(min=0.0, max=0.99, help="Share of tick messages to throw away, to see them heal.")
+    ] = 0.0,
+    summary_json: Annotated[
+        Path | None, typer.Option(help="Write the closing figures to this file too.")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the closing figures as JSON.")] = False,
+) -> None:
+    """Join a server: follow its world bit for bit, play as a bot or watch, film what is seen.
+
+    Ends with status 1 if any state differed from the server's.
+
+    Example: kuglice client --bot chaser --seconds 10 --render out/chaser.mp4
+    """
+    log_to_stderr()
+    stop = stop_on_signals()
+    try:
+        settings = ClientSettings(
+            connect=tuple(connect or ("tcp/127.0.0.1:7447",)),
+            world=world,
+            name=name or (f"{bot}-{secrets.token_hex(3)}" if bot else None),
+            bot=bot,
+            wait=wait,
+            lose=(lambda _: random.random() < lose) if lose else None,
+        )
+        film = None
+        with Client(settings, stop) as playing:
+            if render is not None:
+                film = _film(playing, render, fps, size, style, overlay, trails, still_every)
+            with STDERR.status("playing") as line:
+                playing.run(seconds=seconds, fps=fps, each_frame=_shower(film, overlay, line))
+            summary = playing.summary()
+        if film is not None:
+            summary |= _finished(film)
+    except KugliceError as error:
+        STDERR.print(f"[red]kuglice client:[/] {error}", highlight=False)
+        raise typer.Exit(2) from error
+    if summary_json is not None:
+        summary_json.parent.mkdir(parents=True, exist_ok=True)
+        summary_json.write_text(json.dumps(summary, indent=2) + "\n")
+    print_figures(f"Client {settings.name or '(spectator)'}", {"client": summary}, as_json=as_json)
+    if not summary["agreed"]:
+        raise typer.Exit(1)
+
+
+def _film(
+    playing: Client,
+    path: Path,
+    fps: int,
+    size: str,
+    style: str,
+    overlay: list[str] | None,
+    trails: float,
+    still_every: float,
+) -> Film:
+    # Pillow and PyAV come with the extra `render`; everything else works without them.
+    from kuglice_client.filming import Film, FilmSettings
+
+    width, cross, height = size.partition("x")
+    if not (cross and width.isdecimal() and height.isdecimal()):
+        raise KugliceError(f"size {size!r}: must look like 1280x720")
+    return Film(
+        playing.joined.scene,
+        FilmSettings(
+            path=path,
+            fps=fps,
+            size=(int(width), int(height)),
+            style=style,
+            overlays=tuple(overlay or ("tick",)),
+            trails=trails,
+            still_every=round(still_every * fps),
+            own=playing.joined.number,
+        ),
+    )
+
+
+def _shower(film: Film | None, overlay: list[str] | None, line: Any) -> Any:
+    told = time.monotonic()
+
+    def show(playing: Client, alpha: float) -> None:
+        nonlocal told
+        if film is not None:
+            film.add(playing.moment(alpha, nodes="tree" in (overlay or ())))
+        if time.monotonic() - told >= 1:
+            told = time.monotonic()
+            checks = playing.reconciler
+            line.update(
+                f"tick {playing.confirmed.tick:,}, {checks.hashes_checked:,} hashes checked, "
+                f"{checks.hash_mismatches} different"
+            )
+
+    return show
+
+
+def _finished(film: Film) -> dict[str, Any]:
+    with STDERR.status(f"finishing the film, {film.waiting} frames to draw"):
+        frames = film.close(FINISH_SECONDS)
+    return {"film": str(film.settings.path), "frames": frames, "frames_left_out": film.left_out}

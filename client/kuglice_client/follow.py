@@ -1,0 +1,84 @@
+"""The confirmed world: the tick stream, put in order and stepped through; never a guess."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from kuglice import World
+from kuglice.protocol import Stretch, StretchedTick
+
+__all__ = ["Confirmed", "Follower"]
+
+BUFFERED_TICKS = 36_000
+KEPT_TICKS = 1_200
+
+
+class Confirmed(NamedTuple):
+    """A tick of the stream that was stepped, and the hash of state(tick + 1) here."""
+
+    entry: StretchedTick
+    state_hash: int
+
+
+class Follower:
+    """`world` is state(world.tick) as the server has it, unless something is broken; reconcile.py finds out."""
+
+    def __init__(self, world: World) -> None:
+        self.world = world
+        self._buffer: dict[int, StretchedTick] = {}
+        self._kept: OrderedDict[int, StretchedTick] = OrderedDict()
+        self._newest = -1
+        self.missed_messages = 0
+        self.healed_by_repeats = 0
+        self.healed_by_history = 0
+
+    def take(self, stretch: Stretch, *, from_history: bool = False) -> None:
+        """Buffer what is not stepped yet. Any order, any overlap."""
+        newest = stretch.end - 1
+        if not from_history:
+            if 0 <= self._newest < newest - 1:
+                self.missed_messages += newest - 1 - self._newest
+            told_before, self._newest = self._newest, max(self._newest, newest)
+        for entry in stretch.ticks():
+            if (
+                entry.tick < self.world.tick
+                or entry.tick in self._buffer
+                or len(self._buffer) >= BUFFERED_TICKS
+            ):
+                continue
+            self._buffer[entry.tick] = entry
+            if from_history:
+                self.healed_by_history += 1
+            elif told_before >= 0 and entry.tick != newest:
+                self.healed_by_repeats += 1
+
+    @property
+    def gap(self) -> tuple[int, int] | None:
+        """Ticks [first, end) that neither the stream nor its repeats brought, if later ones are here already."""
+        if not self._buffer or self.world.tick in self._buffer:
+            return None
+        return self.world.tick, min(self._buffer)
+
+    def advance(self, before: int | None = None) -> Iterator[Confirmed]:
+        """Step through what is buffered, as far as it is complete (and not beyond state `before`)."""
+        while before is None or self.world.tick < before:
+            entry = self._buffer.pop(self.world.tick, None)
+            if entry is None:
+                return
+            self.world.step(entry.inputs)
+            self._kept[entry.tick] = entry
+            while len(self._kept) > KEPT_TICKS:
+                self._kept.popitem(last=False)
+            yield Confirmed(entry, self.world.state_hash)
+
+    def replace(self, world: World) -> None:
+        """Go on from another state: an older one is brought up to where this was, by the ticks kept since."""
+        reached = self.world.tick
+        for tick in range(world.tick, reached):
+            if tick not in self._kept:
+                break
+            self._buffer.setdefault(tick, self._kept[tick])
+        self._buffer = {tick: entry for tick, entry in self._buffer.items() if tick >= world.tick}
+        self.world = world

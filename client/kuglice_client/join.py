@@ -1,0 +1,148 @@
+"""Joining: find the world, learn its scene and model, get a number, restore the newest snapshot.
+
+The tick stream is subscribed to, and buffered, before any of this begins: whatever happens between the snapshot and
+the first buffered tick is in the server's history, and everything later in the buffer.
+"""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from dataclasses import dataclass
+
+import zenoh
+
+from kuglice import Model, Scene, World, _core
+from kuglice.errors import JoinError, KugliceError, ProtocolError
+from kuglice.protocol import ANY_STATUS, About, Keys, SnapshotRequest, Status, decode
+from kuglice_client.ask import Asked
+from kuglice_client.traffic import Traffic
+
+__all__ = ["Joined", "find_world", "join"]
+
+log = logging.getLogger(__name__)
+
+RETRY_SECONDS = 0.03
+
+
+@dataclass(frozen=True)
+class Joined:
+    """What came out of joining. `number` is None for a spectator; `sequence` is the last one the server saw of us."""
+
+    epoch: int
+    about: About
+    scene: Scene
+    model: Model
+    world: World
+    number: int | None
+    sequence: int
+    round_trip: float
+
+
+def find_world(session: zenoh.Session, *, traffic: Traffic, deadline: float, stop: threading.Event) -> str:
+    """Name of the only world that is served here. Raises JoinError if there is none, or more than one."""
+    while True:
+        try:
+            replies = Asked(session, ANY_STATUS, None, traffic=traffic).wait(stop)
+            break
+        except JoinError:
+            _pause(deadline, stop)
+    worlds = sorted({decode(reply, Status).world for reply in replies})
+    if len(worlds) > 1:
+        raise JoinError(f"worlds {', '.join(worlds)} are served here: say which one with --world")
+    return worlds[0]
+
+
+def join(
+    session: zenoh.Session,
+    keys: Keys,
+    name: str | None,
+    *,
+    traffic: Traffic,
+    deadline: float,
+    stop: threading.Event,
+) -> Joined:
+    """Join as the client `name`, whose liveliness token is declared already, or as a spectator (None).
+
+    Raises JoinError at the deadline, when refused, or when this build would step to other bits than the server.
+    """
+    while True:
+        try:
+            return _attempt(session, keys, name, traffic=traffic, deadline=deadline, stop=stop)
+        except _NotYet as error:
+            log.debug("not yet: %s", error)
+            _pause(deadline, stop, why=str(error))
+
+
+class _NotYet(JoinError):
+    """A reason that time may heal."""
+
+
+def _attempt(
+    session: zenoh.Session,
+    keys: Keys,
+    name: str | None,
+    *,
+    traffic: Traffic,
+    deadline: float,
+    stop: threading.Event,
+) -> Joined:
+    try:
+        about = decode(Asked(session, keys.about, None, traffic=traffic).wait_whole(stop).data, About)
+    except JoinError as error:
+        raise _NotYet(str(error)) from error
+    except ProtocolError as error:
+        raise JoinError(f"{keys.about}: {error}") from error
+    if about.step_version != _core.STEP_VERSION:
+        raise JoinError(
+            f"step version {about.step_version} of the server (kuglice {about.version}): this client has "
+            f"{_core.STEP_VERSION} and would compute other bits"
+        )
+    number, sequence = None, 0
+    if name is not None:
+        number, sequence = _number(session, keys, name, traffic=traffic, deadline=deadline, stop=stop)
+    try:
+        asked_at = time.monotonic()
+        snapshot = Asked(
+            session, keys.history, SnapshotRequest(epoch=about.epoch, at=None), traffic=traffic
+        ).wait_whole(stop)
+        round_trip = time.monotonic() - asked_at
+    except JoinError as error:
+        raise _NotYet(str(error)) from error
+    try:
+        scene = Scene.from_message(about.scene)
+        model = Model.from_message(about.model)
+        world = World.restore(scene, snapshot.data, model)
+    except KugliceError as error:
+        raise JoinError(f"world {about.world}: {error}") from error
+    return Joined(about.epoch, about, scene, model, world, number, sequence, round_trip)
+
+
+def _number(
+    session: zenoh.Session,
+    keys: Keys,
+    name: str,
+    *,
+    traffic: Traffic,
+    deadline: float,
+    stop: threading.Event,
+) -> tuple[int, int]:
+    while True:
+        try:
+            status = decode(Asked(session, keys.status, None, traffic=traffic).wait(stop)[0], Status)
+        except (JoinError, ProtocolError) as error:
+            raise _NotYet(str(error)) from error
+        mine = status.clients.get(name)
+        if mine is not None and mine.refusal is not None:
+            raise JoinError(f"client {name}: {mine.refusal}")
+        if mine is not None:
+            return mine.number, mine.sequence
+        _pause(deadline, stop, why=f"client {name}: the server has not let it in")
+
+
+def _pause(deadline: float, stop: threading.Event, why: str = "no world is served here") -> None:
+    if stop.wait(RETRY_SECONDS):
+        raise JoinError("stopped while joining")
+    if time.monotonic() > deadline:
+        raise JoinError(why)

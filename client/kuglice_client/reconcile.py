@@ -1,0 +1,122 @@
+"""Is the confirmed world the server's, bit for bit? Every tick by its hash, now and then by the whole state."""
+
+from __future__ import annotations
+
+import logging
+from collections import OrderedDict
+
+from kuglice import World
+from kuglice.errors import SnapshotError
+from kuglice.protocol import Whole
+from kuglice_client.desync import Desync, compare_worlds
+from kuglice_client.follow import Confirmed, Follower
+
+__all__ = ["Reconciler"]
+
+log = logging.getLogger(__name__)
+
+KEPT_STATES = 4
+LOGGED_DESYNCS = 10
+
+
+class Reconciler:
+    """Compares; on a mismatch takes the server's state, counts, and reports.
+
+    `snapshot_every`: ticks between the server's snapshots, whose states are kept here for comparison.
+    """
+
+    def __init__(self, follower: Follower, *, snapshot_every: int) -> None:
+        self._follower = follower
+        self._every = snapshot_every
+        self._states: OrderedDict[int, bytes] = OrderedDict()
+        self._waiting: Whole | None = None
+        self._wrong_since: int | None = None
+        self.hashes_checked = 0
+        self.hash_mismatches = 0
+        self.snapshots_checked = 0
+        self.snapshot_mismatches = 0
+        self.snapshots_taken = 0
+        self.snapshots_too_old = 0
+        self.desyncs: list[Desync] = []
+        self._keep()
+
+    @property
+    def wrong_since(self) -> int | None:
+        """The first tick whose state is known to differ, until a snapshot has put it right."""
+        return self._wrong_since
+
+    def confirmed(self, step: Confirmed) -> None:
+        """A tick was stepped: compare its hash, keep the state if a snapshot of it will come."""
+        self.hashes_checked += 1
+        if step.state_hash != step.entry.state_hash:
+            self.hash_mismatches += 1
+            if self._wrong_since is None:
+                self._wrong_since = step.entry.tick + 1
+                log.error(
+                    "state %d: hash %016x here, %016x there",
+                    self._wrong_since,
+                    step.state_hash,
+                    step.entry.state_hash,
+                )
+        self._keep()
+
+    def received(self, snapshot: Whole) -> bool:
+        """A snapshot from the server. Whether it replaced the confirmed world."""
+        tick = snapshot.tick
+        if tick > self._follower.world.tick:
+            self._waiting = snapshot
+            return False
+        ours = self._states.get(tick)
+        if ours is None and self._wrong_since is None:
+            self.snapshots_too_old += 1
+            return False
+        if ours is not None:
+            self.snapshots_checked += 1
+            if ours == snapshot.data:
+                # Right at this tick, so whatever is wrong began later: this snapshot cannot tell what it was.
+                if self._wrong_since is None or tick < self._wrong_since:
+                    return False
+            else:
+                self.snapshot_mismatches += 1
+        return self._take(snapshot, ours)
+
+    def compare_waiting(self) -> bool:
+        """The snapshot that was ahead of the confirmed world, if it is not any more."""
+        if self._waiting is None or self._waiting.tick > self._follower.world.tick:
+            return False
+        snapshot, self._waiting = self._waiting, None
+        return self.received(snapshot)
+
+    def stranded(self, snapshot: Whole) -> None:
+        """Take a snapshot because nothing else leads on from here: the gap is longer than the server's history."""
+        self._take(snapshot, None)
+
+    def _keep(self) -> None:
+        world = self._follower.world
+        if world.tick % self._every == 0:
+            self._states[world.tick] = world.snapshot()
+            while len(self._states) > KEPT_STATES:
+                self._states.popitem(last=False)
+
+    def _take(self, snapshot: Whole, ours: bytes | None) -> bool:
+        world = self._follower.world
+        try:
+            theirs = World.restore(world.scene, snapshot.data, world.model)
+        except SnapshotError:
+            log.exception("snapshot %d cannot be restored", snapshot.tick)
+            return False
+        if ours is not None:
+            self._report(World.restore(world.scene, ours, world.model), theirs)
+        self.snapshots_taken += 1
+        self._states.clear()
+        self._wrong_since = None
+        self._follower.replace(theirs)
+        self._keep()
+        return True
+
+    def _report(self, ours: World, theirs: World) -> None:
+        found_by = "hash" if self._wrong_since is not None else "snapshot"
+        desync = compare_worlds(ours, theirs, tick=self._wrong_since or theirs.tick, found_by=found_by)
+        if len(self.desyncs) < LOGGED_DESYNCS:
+            self.desyncs.append(desync)
+            log.error("%s", desync)

@@ -1,0 +1,108 @@
+"""What the server says when asked: about, history, status. Runs on Zenoh's own threads, beside the tick loop."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import zenoh
+
+from kuglice.errors import KugliceError, ProtocolError
+from kuglice.protocol import (
+    About,
+    History,
+    Keys,
+    Message,
+    Refusal,
+    SnapshotRequest,
+    Status,
+    Stretch,
+    TickRange,
+    decode,
+    encode,
+    split,
+)
+from kuglice_server.history import History as KeptHistory
+
+__all__ = ["Answers"]
+
+log = logging.getLogger(__name__)
+
+
+class Answers:
+    """Queryables of one world. `about` and `status` are called for fresh messages and must be safe to call from any thread."""
+
+    def __init__(
+        self,
+        session: zenoh.Session,
+        keys: Keys,
+        *,
+        epoch: int,
+        about: Callable[[], About],
+        status: Callable[[], Status],
+        history: KeptHistory,
+    ) -> None:
+        self._epoch = epoch
+        self._about = about
+        self._status = status
+        self._history = history
+        handlers: list[tuple[str, Callable[[zenoh.Query], Iterator[Message]]]] = [
+            (keys.about, self._answer_about),
+            (keys.status, self._answer_status),
+            (keys.history, self._answer_history),
+        ]
+        self.declared = tuple(
+            session.declare_queryable(key, zenoh.handlers.Callback(self._guarded(key, handler)))
+            for key, handler in handlers
+        )
+
+    def _guarded(
+        self, key: str, handler: Callable[[zenoh.Query], Iterator[Message]]
+    ) -> Callable[[zenoh.Query], Any]:
+        def answer(query: zenoh.Query) -> None:
+            with query:
+                try:
+                    for message in handler(query):
+                        query.reply(key, encode(message))
+                except KugliceError as error:
+                    query.reply_err(encode(Refusal(epoch=self._epoch, reason=str(error)[:2000])))
+                except Exception as error:
+                    # An asker must not be left waiting, nor the answering thread die, because of a bug of ours.
+                    log.exception("query on %s failed", key)
+                    query.reply_err(
+                        encode(Refusal(epoch=self._epoch, reason=f"internal error: {error}"[:2000]))
+                    )
+
+        return answer
+
+    def _answer_about(self, query: zenoh.Query) -> Iterator[Message]:
+        about = self._about()
+        yield from split(encode(about), of="about", epoch=self._epoch, tick=about.tick)
+
+    def _answer_status(self, query: zenoh.Query) -> Iterator[Message]:
+        yield self._status()
+
+    def _answer_history(self, query: zenoh.Query) -> Iterator[Message]:
+        payload = query.payload
+        if payload is None:
+            raise ProtocolError("history: a query needs a payload that says which ticks or which snapshot")
+        request: TickRange | SnapshotRequest = decode(payload.to_bytes(), TickRange, SnapshotRequest)
+        if request.epoch != self._epoch:
+            raise ProtocolError(f"epoch {request.epoch}: this server runs epoch {self._epoch}")
+        if isinstance(request, TickRange):
+            ticks = self._history.ticks(request.first, request.end)
+            if not ticks:
+                raise ProtocolError(f"ticks {request.first} to {request.end - 1}: not kept, or not yet run")
+            stretch = History(
+                epoch=self._epoch,
+                first=ticks[0].tick,
+                inputs=[entry.inputs for entry in ticks],
+                hashes=Stretch.pack_hashes([entry.state_hash for entry in ticks]),
+            )
+            yield from split(encode(stretch), of="history", epoch=self._epoch, tick=ticks[0].tick)
+        else:
+            kept = self._history.snapshot(request.at)
+            if kept is None:
+                raise ProtocolError(f"snapshot at or before {request.at}: not kept")
+            yield from split(kept.data, of="snapshot", epoch=self._epoch, tick=kept.tick)

@@ -1,0 +1,118 @@
+"""`kuglice server SCENE`: serve a world."""
+
+from __future__ import annotations
+
+import re
+import time
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from kuglice import scenes
+from kuglice.cli.figures import print_figures
+from kuglice.cli.logs import STDERR, log_to_stderr
+from kuglice.cli.stop import stop_on_signals
+from kuglice.errors import KugliceError
+from kuglice_server.server import Server, ServerSettings
+
+__all__ = ["register"]
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command("server")(server)
+
+
+def server(
+    scene: Annotated[str, typer.Argument(help="A built-in scene ('gas', 'gas:n=2000') or a TOML file.")],
+    listen: Annotated[
+        list[str] | None,
+        typer.Option(help="Endpoint to listen on; may be repeated. [default: tcp/127.0.0.1:7447]"),
+    ] = None,
+    connect: Annotated[
+        list[str] | None, typer.Option(help="Endpoint of a router that runs already, instead of listening.")
+    ] = None,
+    world: Annotated[
+        str | None, typer.Option(help="Name of the world in the keys. [default: the scene's name]")
+    ] = None,
+    rate: Annotated[
+        float | None,
+        typer.Option(help="Ticks per second of wall clock; same bits. [default: the scene's tick rate]"),
+    ] = None,
+    snapshot_every: Annotated[int, typer.Option(help="Ticks between published snapshots.")] = 60,
+    record: Annotated[Path | None, typer.Option(help="Write a replay file.")] = None,
+    seconds: Annotated[
+        float | None, typer.Option(help="Stop after this long. [default: on SIGINT or SIGTERM]")
+    ] = None,
+    insecure: Annotated[
+        bool, typer.Option("--insecure", help="Allow listening on addresses that others can reach.")
+    ] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the closing figures as JSON.")] = False,
+) -> None:
+    """Serve a world: step it at a fixed rate, publish it, and take inputs of the clients that join.
+
+    Nothing else need be started: the server is its own Zenoh router.
+
+    Example: kuglice server arena --record out/game.kgr
+    """
+    log_to_stderr()
+    stop = stop_on_signals()
+    try:
+        settings = ServerSettings(
+            world=world or _name_of(scene),
+            listen=tuple(listen or (() if connect else ("tcp/127.0.0.1:7447",))),
+            connect=tuple(connect or ()),
+            rate=rate,
+            snapshot_every=snapshot_every,
+            record=record,
+            insecure=insecure,
+        )
+        with Server(scenes.find(scene), settings) as running:
+            where = ", ".join((*settings.listen, *settings.connect))
+            STDERR.print(
+                f"world [bold]{settings.world}[/] of {running.world.count:,} balls on {where}, {running.world.model}"
+            )
+            with STDERR.status("starting") as line:
+                running.run(stop, seconds=seconds, each_tick=_teller(line))
+            figures = _figures(running)
+    except KugliceError as error:
+        STDERR.print(f"[red]kuglice server:[/] {error}", highlight=False)
+        raise typer.Exit(2) from error
+    print_figures(f"Server of {settings.world}", {"server": figures}, as_json=as_json)
+
+
+def _name_of(scene: str) -> str:
+    stem = Path(scene.partition(":")[0]).stem
+    return re.sub(r"[^A-Za-z0-9_-]", "-", stem).strip("-_")[:32] or "world"
+
+
+def _teller(line: Any) -> Any:
+    told = time.monotonic()
+
+    def tell(running: Server) -> None:
+        nonlocal told
+        now = time.monotonic()
+        if now - told >= 1:
+            told = now
+            status = running.status()
+            line.update(f"tick {status.tick:,}, {status.balls:,} balls, {len(status.clients)} clients")
+
+    return tell
+
+
+def _figures(running: Server) -> dict[str, Any]:
+    status = running.status()
+    return {
+        "world": status.world,
+        "epoch": status.epoch,
+        "ticks": status.tick,
+        "final_hash": f"{running.world.state_hash:016x}",
+        "balls": status.balls,
+        "inputs_applied": running.world.inputs_applied,
+        "inputs_ignored": running.world.inputs_ignored,
+        "late_ticks": status.counters["late ticks"],
+        "seconds_lost": status.seconds_lost,
+        "worst_lateness_ms": 1000 * status.worst_lateness,
+        **{name.replace(" ", "_"): count for name, count in sorted(running.counters.items())},
+    }

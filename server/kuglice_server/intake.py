@@ -1,0 +1,154 @@
+"""Inputs from clients: validated, scheduled for a tick, and acknowledged with that tick or the reason against it.
+
+Every input has a defined answer:
+
+- in time: acts in the tick it asks for; late: acts in the next tick, and the ack says how late it was;
+- too early (beyond `horizon` ticks), beyond the scene's limits, malformed: refused, with the reason;
+- duplicate: acknowledged as before, never applied twice; older than what is remembered: refused;
+- from nobody who is here, or meant for another epoch: counted, not answered, since nobody would hear it.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, deque
+
+from kuglice import Scene, World
+from kuglice.errors import InputError, ProtocolError
+from kuglice.inputs import Input, check, from_message
+from kuglice.protocol import Ack, ClientInputs, Keys, SentInput, decode
+from kuglice_server.players import Player, Players
+
+__all__ = ["Intake"]
+
+CLIENT_KINDS = frozenset({"spawn", "remove", "thrust", "attract", "kick"})
+MESSAGES_PER_TICK = 16
+"""Messages of one client that are read per tick; a client that loses some sends them again until acknowledged."""
+MAX_ACKS = 256
+"""Outcomes per tick message; a client that does not hear of one asks again."""
+MAX_REASON = 160
+"""Characters; keeps a tick message within one batch."""
+MAX_PER_TICK = 600
+"""Inputs of all clients in one tick, the rest waits for the next: as many as fit into one batch."""
+
+
+class Intake:
+    """Not for two threads at once: the owner locks."""
+
+    def __init__(
+        self, scene: Scene, players: Players, *, epoch: int, horizon: int, counters: Counter[str]
+    ) -> None:
+        self._scene = scene
+        self._players = players
+        self._epoch = epoch
+        self._horizon = horizon
+        self._counters = counters
+        self._scheduled: dict[int, list[Input]] = {}
+        self._used: Counter[tuple[int, int]] = Counter()
+        self._read: Counter[str] = Counter()
+        self._new_acks: list[Ack] = []
+        self._acks: deque[tuple[int, list[Ack]]] = deque()
+
+    def receive(self, key: str, payload: bytes, *, world: World) -> None:
+        """One message from the wire; `world` is the state that its tick will begin with. Raises nothing."""
+        try:
+            name = Keys.client_of(key)
+        except ProtocolError:
+            self._counters["foreign"] += 1
+            return
+        player = self._players.find(name)
+        if player is None:
+            self._counters["foreign"] += 1
+            return
+        self._read[name] += 1
+        if self._read[name] > MESSAGES_PER_TICK:
+            self._counters["flooded"] += 1
+            return
+        try:
+            message = decode(payload, ClientInputs)
+        except ProtocolError as error:
+            self._counters["malformed"] += 1
+            self._new_acks.append(Ack(player.number, None, None, 0, _reason(error)))
+            return
+        if message.epoch != self._epoch:
+            self._counters["other epoch"] += 1
+            return
+        for sent in message.inputs:
+            self._take(player, sent, world)
+
+    def due(self, tick: int) -> list[Input]:
+        """Inputs that act in `tick`, which is not asked for again."""
+        self._read.clear()
+        inputs = self._scheduled.pop(tick, [])
+        for client in {one.client for one in inputs}:
+            del self._used[client, tick]
+        return inputs
+
+    def acks(self, tick: int, *, repeat: int) -> list[Ack]:
+        """Outcomes to publish with `tick`: the new ones, and those of the last `repeat` ticks again."""
+        if self._new_acks:
+            self._acks.append((tick, self._new_acks))
+            self._new_acks = []
+        while self._acks and self._acks[0][0] <= tick - repeat:
+            self._acks.popleft()
+        return [ack for _, acks in self._acks for ack in acks][-MAX_ACKS:]
+
+    def _take(self, player: Player, sent: SentInput, world: World) -> None:
+        early = sent.tick - world.tick
+        if sent.sequence <= player.sequence:
+            self._again(player, sent, early)
+            return
+        player.sequence = sent.sequence
+        try:
+            one = from_message({**sent.act, "client": player.number, "sequence": sent.sequence})
+            if one.kind not in CLIENT_KINDS:
+                raise InputError(
+                    f"{one.kind} {one.sequence} of client {one.client}: only the server says who joins and leaves"
+                )
+            check(one, self._scene, world)
+            tick = self._tick_for(player, max(sent.tick, world.tick), world.tick)
+        except InputError as error:
+            player.refused += 1
+            self._counters["refused"] += 1
+            self._answer(
+                player, sent.sequence, Ack(player.number, sent.sequence, None, early, _reason(error))
+            )
+            return
+        self._scheduled.setdefault(tick, []).append(one)
+        self._used[player.number, tick] += 1
+        player.last_tick = tick
+        player.accepted += 1
+        self._counters["accepted"] += 1
+        if early < 0:
+            player.late += 1
+            self._counters["late"] += 1
+        self._answer(player, sent.sequence, Ack(player.number, sent.sequence, tick, early, None))
+
+    def _tick_for(self, player: Player, tick: int, now: int) -> int:
+        # Inputs of one client act in the order of their sequence numbers, so never before an earlier one.
+        tick = max(tick, player.last_tick)
+        while (
+            self._used[player.number, tick] >= self._scene.limits.per_tick
+            or len(self._scheduled.get(tick, ())) >= MAX_PER_TICK
+        ):
+            tick += 1
+        if tick > now + self._horizon:
+            raise InputError(f"tick {tick}: at most {self._horizon} ticks after {now}, the next one, allowed")
+        return tick
+
+    def _again(self, player: Player, sent: SentInput, early: int) -> None:
+        self._counters["duplicate"] += 1
+        known = player.outcomes.get(sent.sequence)
+        if known is None:
+            reason = f"sequence {sent.sequence}: {player.sequence} came before, and what became of it is not remembered"
+            known = Ack(player.number, sent.sequence, None, early, reason)
+        if known not in self._new_acks and not any(known in acks for _, acks in self._acks):
+            self._new_acks.append(known)
+
+    def _answer(self, player: Player, sequence: int, ack: Ack) -> None:
+        player.remember(sequence, ack)
+        self._new_acks.append(ack)
+
+
+def _reason(error: Exception) -> str:
+    text = str(error)
+    return text if len(text) <= MAX_REASON else f"{text[: MAX_REASON - 3]}..."

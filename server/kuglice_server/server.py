@@ -1,0 +1,196 @@
+"""The authority over one world: assembles intake, tick loop, publishing and answering around one Zenoh session."""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Self
+
+import zenoh
+
+from kuglice import Scene, World, _core, __version__
+from kuglice.errors import ProtocolError
+from kuglice.protocol import (
+    About,
+    Keys,
+    Status,
+    close_session,
+    is_loopback,
+    open_session,
+    server_configuration,
+)
+from kuglice_server.answer import Answers
+from kuglice_server.history import History
+from kuglice_server.intake import Intake
+from kuglice_server.players import Players
+from kuglice_server.publish import Publisher
+from kuglice_server.record import Record
+from kuglice_server.schedule import Schedule
+from kuglice_server.tick_loop import TickLoop
+
+__all__ = ["Server", "ServerSettings"]
+
+log = logging.getLogger(__name__)
+
+HISTORY_SECONDS = 60
+EARLIEST_SECONDS = 2
+WAITING_MESSAGES = 4096
+
+
+@dataclass(frozen=True)
+class ServerSettings:
+    """How a world is served; none of it changes its bits.
+
+    `rate`: ticks per second of wall clock (None: the scene's). `snapshot_every`: ticks between published snapshots.
+    `insecure`: listen on addresses that others can reach, although there are no accounts and no encryption yet.
+    """
+
+    world: str
+    listen: Sequence[str] = ("tcp/127.0.0.1:7447",)
+    connect: Sequence[str] = ()
+    rate: float | None = None
+    snapshot_every: int = 60
+    record: Path | None = None
+    insecure: bool = False
+
+    def __post_init__(self) -> None:
+        if not self.listen and not self.connect:
+            raise ProtocolError("endpoints: none to listen on and none to connect to")
+        for endpoint in self.listen:
+            if not is_loopback(endpoint) and not self.insecure:
+                raise ProtocolError(
+                    f"endpoint {endpoint!r}: others can reach it, and there are no accounts and no encryption yet; "
+                    "say --insecure if that is what you want"
+                )
+        if self.snapshot_every < 1:
+            raise ProtocolError(f"snapshot-every {self.snapshot_every}: must be at least 1 tick")
+        if self.rate is not None and not 0 < self.rate <= 10_000:
+            raise ProtocolError(f"rate {self.rate}: must be above 0 and at most 10000 ticks per second")
+
+
+class Server:
+    """Serves `scene` from construction to `close()`; `run` makes its time pass. A context manager."""
+
+    def __init__(self, scene: Scene, settings: ServerSettings) -> None:
+        self.settings = settings
+        self.world = World(scene)
+        # Grows from run to run, so that a restarted server never says an epoch again.
+        self.epoch = time.time_ns()
+        self.rate = settings.rate if settings.rate is not None else scene.tick_rate
+        self.counters: Counter[str] = Counter()
+        self._scene = scene
+        self._scene_message = scene.to_message()
+        self._lock = threading.Lock()
+        self._players = Players(scene)
+        intake = Intake(
+            scene,
+            self._players,
+            epoch=self.epoch,
+            horizon=max(1, round(EARLIEST_SECONDS * self.rate)),
+            counters=self.counters,
+        )
+        self._history = History(span=max(600, round(HISTORY_SECONDS * self.rate)))
+        self._schedule = Schedule(self.rate)
+        self._record = Record(settings.record, self.world) if settings.record is not None else None
+        keys = Keys(settings.world)
+        self._session = open_session(server_configuration(listen=settings.listen, connect=settings.connect))
+        publisher = Publisher(self._session, keys, epoch=self.epoch, counters=self.counters)
+        tokens: zenoh.Subscriber[Any] = self._session.liveliness().declare_subscriber(
+            keys.clients, zenoh.handlers.RingChannel(WAITING_MESSAGES), history=True
+        )
+        inputs: zenoh.Subscriber[Any] = self._session.declare_subscriber(
+            keys.inputs, zenoh.handlers.RingChannel(WAITING_MESSAGES)
+        )
+        self._loop = TickLoop(
+            self.world,
+            players=self._players,
+            intake=intake,
+            history=self._history,
+            publisher=publisher,
+            tokens=tokens,
+            inputs=inputs,
+            snapshot_every=settings.snapshot_every,
+            counters=self.counters,
+            lock=self._lock,
+            record=self._record,
+        )
+        self._now = self.world.tick
+        self._balls = self.world.count
+        answers = Answers(
+            self._session, keys, epoch=self.epoch, about=self.about, status=self.status, history=self._history
+        )
+        self._declared = (inputs, tokens, *answers.declared, *publisher.declared)
+
+    def run(
+        self,
+        stop: threading.Event,
+        *,
+        seconds: float | None = None,
+        each_tick: Callable[[Server], None] | None = None,
+    ) -> None:
+        """Tick until `stop`, or for that many seconds of the schedule; what is lost is logged once per second."""
+        self._schedule = Schedule(self.rate)
+        ticks = None if seconds is None else round(seconds * self.rate)
+        told_lost, told_at = 0.0, time.monotonic()
+        while not stop.is_set() and (ticks is None or ticks > 0):
+            self._schedule.wait(stop)
+            if stop.is_set():
+                break
+            self._loop.tick()
+            self._now, self._balls = self.world.tick, self.world.count
+            ticks = None if ticks is None else ticks - 1
+            if each_tick is not None:
+                each_tick(self)
+            if self._schedule.seconds_lost > told_lost and time.monotonic() - told_at > 1:
+                told_lost, told_at = self._schedule.seconds_lost, time.monotonic()
+                log.warning("too slow for %g ticks per second: %.2f s lost so far", self.rate, told_lost)
+
+    def about(self) -> About:
+        """What a client must know to join. Safe from any thread."""
+        return About(
+            epoch=self.epoch,
+            world=self.settings.world,
+            version=__version__,
+            step_version=_core.STEP_VERSION,
+            scene=self._scene_message,
+            model=self.world.model.to_message(),
+            rate=self.rate,
+            snapshot_every=self.settings.snapshot_every,
+            history_ticks=self._history.span,
+            tick=self._now,
+        )
+
+    def status(self) -> Status:
+        """How it goes. Safe from any thread."""
+        with self._lock:
+            return Status(
+                epoch=self.epoch,
+                world=self.settings.world,
+                tick=self._now,
+                rate=self.rate,
+                balls=self._balls,
+                clients=self._players.status(),
+                counters={**self.counters, "late ticks": self._schedule.late_ticks},
+                seconds_lost=self._schedule.seconds_lost,
+                worst_lateness=self._schedule.worst_lateness,
+            )
+
+    def close(self, timeout: float = 5.0) -> bool:
+        """Finish the record, leave the network. False if Zenoh did not finish within `timeout` seconds."""
+        if self._record is not None:
+            self._record.close()
+        closed = close_session(self._session, self._declared, timeout=timeout)
+        if not closed:
+            log.error("the network session did not close within %g s", timeout)
+        return closed
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()

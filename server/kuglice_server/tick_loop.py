@@ -1,0 +1,124 @@
+"""One tick after the other: who came and went, what they want, the step, what came of it."""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections import Counter
+from typing import Any
+
+import zenoh
+
+from kuglice import World
+from kuglice.errors import InputError, ProtocolError
+from kuglice.inputs import Input, pack
+from kuglice.protocol import Keys, StretchedTick
+from kuglice_server.history import History, KeptSnapshot
+from kuglice_server.intake import Intake
+from kuglice_server.players import Players
+from kuglice_server.publish import Publisher
+from kuglice_server.record import Record
+
+__all__ = ["TickLoop"]
+
+log = logging.getLogger(__name__)
+
+REPEATED_TICKS = 6
+"""Ticks per tick message: a client may miss five in a row and needs nobody's help."""
+
+
+class TickLoop:
+    """Owns the world. `lock` guards players, intake and counters, which the answering threads read too."""
+
+    def __init__(
+        self,
+        world: World,
+        *,
+        players: Players,
+        intake: Intake,
+        history: History,
+        publisher: Publisher,
+        tokens: zenoh.Subscriber[Any],
+        inputs: zenoh.Subscriber[Any],
+        snapshot_every: int,
+        counters: Counter[str],
+        lock: threading.Lock,
+        record: Record | None,
+    ) -> None:
+        self._world = world
+        self._players = players
+        self._intake = intake
+        self._history = history
+        self._publisher = publisher
+        self._tokens = tokens
+        self._inputs = inputs
+        self._snapshot_every = snapshot_every
+        self._counters = counters
+        self._lock = lock
+        self._record = record
+
+    def tick(self) -> None:
+        """Run the next tick and publish it."""
+        world = self._world
+        number = world.tick
+        with self._lock:
+            self._note_tokens()
+            self._take_inputs()
+            authored = self._players.authored(world)
+            inputs = self._intake.due(number)
+            acks = self._intake.acks(number, repeat=REPEATED_TICKS)
+        if number % self._snapshot_every == 0:
+            data = world.snapshot()
+            self._history.add_snapshot(KeptSnapshot(number, data))
+            self._guarded(self._publisher.snapshot, number, data)
+        entry = StretchedTick(number, self._step(authored, inputs), world.state_hash)
+        self._history.add_tick(entry)
+        self._guarded(self._publisher.tick, self._history.recent(REPEATED_TICKS), acks)
+        if self._record is not None:
+            self._record.add(entry)
+
+    def _note_tokens(self) -> None:
+        while (sample := self._tokens.try_recv()) is not None:
+            try:
+                name = Keys.client_of(str(sample.key_expr))
+            except ProtocolError:
+                self._counters["foreign"] += 1
+                continue
+            if sample.kind == zenoh.SampleKind.PUT:
+                self._players.arrive(name)
+            else:
+                self._players.depart(name)
+
+    def _take_inputs(self) -> None:
+        while (sample := self._inputs.try_recv()) is not None:
+            data = sample.payload.to_bytes()
+            self._counters["messages in"] += 1
+            self._counters["bytes in"] += len(data)
+            self._intake.receive(str(sample.key_expr), data, world=self._world)
+
+    def _step(self, authored: list[Input], inputs: list[Input]) -> bytes:
+        records = _packed(authored + inputs)
+        try:
+            self._world.step(records)
+        except InputError:
+            # Every input was checked when it came in; if the step refuses one all the same, the world goes on without.
+            log.exception(
+                "tick %d: the step refused its inputs, %d are left out", self._world.tick, len(inputs)
+            )
+            self._counters["left out"] += len(inputs)
+            records = _packed(authored)
+            self._world.step(records)
+        return records
+
+    def _guarded(self, publish: Any, *arguments: Any) -> None:
+        try:
+            publish(*arguments)
+        except (zenoh.ZError, ProtocolError) as error:
+            if not self._counters["unpublished"]:
+                log.error("tick %d cannot be published: %s", self._world.tick, error)
+            self._counters["unpublished"] += 1
+
+
+def _packed(inputs: list[Input]) -> bytes:
+    # The step puts them into order itself; this order makes equal sets of inputs equal bytes.
+    return pack(sorted(inputs, key=lambda one: (one.client, one.sequence)))

@@ -1,0 +1,38 @@
+"""Figures as a table for people or as JSON for programs: the same figures, on stdout."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+__all__ = ["print_figures"]
+
+
+def print_figures(title: str, columns: Mapping[str, Mapping[str, Any]], *, as_json: bool) -> None:
+    """`columns`: heading -> figure -> value. One column is printed (and dumped) without its heading."""
+    if as_json:
+        body: Any = next(iter(columns.values())) if len(columns) == 1 else columns
+        print(json.dumps(body, indent=2, default=str))
+        return
+    table = Table(title=title, show_header=len(columns) > 1)
+    table.add_column("")
+    for heading in columns:
+        table.add_column(heading, justify="right")
+    figures = dict.fromkeys(figure for column in columns.values() for figure in column)
+    for figure in figures:
+        table.add_row(
+            figure.replace("_", " "), *(_shown(column.get(figure, "")) for column in columns.values())
+        )
+    Console().print(table)
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, float):
+        return f"{value:,.3g}" if abs(value) < 1000 else f"{value:,.0f}"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return f"{value:,}" if isinstance(value, int) else str(value)

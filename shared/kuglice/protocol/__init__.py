@@ -1,0 +1,73 @@
+"""What goes over the wire: keys, messages, their bytes, large things in parts, and the Zenoh session.
+
+Server and client both speak through this package and through nothing else.
+"""
+
+from kuglice.protocol.codec import decode, encode
+from kuglice.protocol.keys import ANY_STATUS, Keys, check_name
+from kuglice.protocol.messages import (
+    MAX_INPUTS,
+    PART_BYTES,
+    PROTOCOL_VERSION,
+    About,
+    Ack,
+    ClientInputs,
+    ClientStatus,
+    History,
+    Message,
+    Part,
+    Refusal,
+    SentInput,
+    SnapshotRequest,
+    Status,
+    Stretch,
+    StretchedTick,
+    Tick,
+    TickRange,
+)
+from kuglice.protocol.parts import Assembly, Whole, split
+from kuglice.protocol.session import (
+    CLIENT_LEASE_MS,
+    Declared,
+    client_configuration,
+    close_session,
+    is_loopback,
+    open_session,
+    server_configuration,
+)
+
+__all__ = [
+    "ANY_STATUS",
+    "CLIENT_LEASE_MS",
+    "MAX_INPUTS",
+    "PART_BYTES",
+    "PROTOCOL_VERSION",
+    "About",
+    "Ack",
+    "Assembly",
+    "ClientInputs",
+    "ClientStatus",
+    "Declared",
+    "History",
+    "Keys",
+    "Message",
+    "Part",
+    "Refusal",
+    "SentInput",
+    "SnapshotRequest",
+    "Status",
+    "Stretch",
+    "StretchedTick",
+    "Tick",
+    "TickRange",
+    "Whole",
+    "check_name",
+    "client_configuration",
+    "close_session",
+    "decode",
+    "encode",
+    "is_loopback",
+    "open_session",
+    "server_configuration",
+    "split",
+]

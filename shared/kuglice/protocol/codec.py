@@ -1,0 +1,84 @@
+"""Messages to bytes and back: bounded before they are decoded, validated before they are used."""
+
+from __future__ import annotations
+
+import reprlib
+from typing import Any, TypeVar
+
+import msgpack
+from pydantic import ValidationError
+
+from kuglice.errors import ProtocolError
+from kuglice.protocol.messages.envelope import PROTOCOL_VERSION, Message
+
+__all__ = ["decode", "encode"]
+
+
+M = TypeVar("M", bound=Message)
+
+_SHORT = reprlib.Repr()
+_SHORT.maxstring = _SHORT.maxother = 80
+
+
+def encode(message: Message) -> bytes:
+    """A msgpack map: version `v`, kind, and the message's own fields. Raises ProtocolError if it is too large."""
+    body = {"v": PROTOCOL_VERSION, "kind": message.kind, **message.model_dump()}
+    data: bytes = msgpack.packb(body)
+    if len(data) > message.max_bytes:
+        raise ProtocolError(
+            f"message {message.kind!r}: {len(data)} bytes, at most {message.max_bytes} allowed"
+        )
+    return data
+
+
+def decode(data: bytes, *kinds: type[M]) -> M:
+    """The message in `data`, which must be one of `kinds`; raises ProtocolError whatever the bytes are."""
+    names = " or ".join(repr(kind.kind) for kind in kinds)
+    bound = max(kind.max_bytes for kind in kinds)
+    if len(data) > bound:
+        raise ProtocolError(f"message {names}: {len(data)} bytes, at most {bound} allowed")
+    body = _unpack(data, names)
+    version = body.pop("v", None)
+    if version != PROTOCOL_VERSION:
+        raise ProtocolError(
+            f"message {names}: protocol version {_SHORT.repr(version)}, this side speaks {PROTOCOL_VERSION}"
+        )
+    name = body.pop("kind", None)
+    kind = next((kind for kind in kinds if kind.kind == name), None)
+    if kind is None:
+        raise ProtocolError(f"message {_SHORT.repr(name)}: expected {names}")
+    if len(data) > kind.max_bytes:
+        raise ProtocolError(f"message {kind.kind!r}: {len(data)} bytes, at most {kind.max_bytes} allowed")
+    try:
+        return kind.model_validate(body)
+    except ValidationError as error:
+        raise ProtocolError(f"message {kind.kind!r}: {_first(error)}") from error
+
+
+def _unpack(data: bytes, names: str) -> dict[str, Any]:
+    # No collection can have more members than the message has bytes, whatever its header claims.
+    bound = len(data)
+    try:
+        body = msgpack.unpackb(
+            data,
+            strict_map_key=True,
+            max_str_len=bound,
+            max_bin_len=bound,
+            max_array_len=bound,
+            max_map_len=bound,
+            max_ext_len=0,
+        )
+    except (ValueError, TypeError, RecursionError, msgpack.UnpackException) as error:
+        # msgpack's own errors are ValueErrors too, and some of them carry no text.
+        raise ProtocolError(f"message {names}: not msgpack: {str(error) or type(error).__name__}") from error
+    if not isinstance(body, dict):
+        raise ProtocolError(f"message {names}: a {type(body).__name__}, not a map")
+    return body
+
+
+def _first(error: ValidationError) -> str:
+    problem = error.errors(include_url=False)[0]
+    where = ".".join(str(step) for step in problem["loc"]) or "message"
+    if problem["type"] == "missing":
+        return f"{where}: missing"
+    return f"{where}: {problem['msg']}, not {_SHORT.repr(problem['input'])}"

@@ -1,0 +1,94 @@
+"""The key space of one world: every key that a server or a client touches is made here."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from kuglice.errors import ProtocolError
+
+__all__ = ["ANY_STATUS", "Keys", "check_name"]
+
+ROOT = "kuglice"
+ANY_STATUS = f"{ROOT}/*/status"
+"""Asked by a client that was not told a world: whoever serves one answers."""
+
+NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,31}")
+
+
+def check_name(what: str, name: str) -> str:
+    """`name` as it is, if it can be one chunk of a key; raises ProtocolError otherwise."""
+    if not NAME.fullmatch(name):
+        raise ProtocolError(
+            f"{what} {name[:64]!r}: must be 1 to 32 letters, digits, '-' or '_', and begin with a letter or digit"
+        )
+    return name
+
+
+@dataclass(frozen=True)
+class Keys:
+    """The keys of the world `world`. Raises ProtocolError if its name cannot be part of a key."""
+
+    world: str
+
+    def __post_init__(self) -> None:
+        check_name("world", self.world)
+
+    def _under(self, rest: str) -> str:
+        return f"{ROOT}/{self.world}/{rest}"
+
+    @property
+    def about(self) -> str:
+        """Query: scene, model, versions, limits."""
+        return self._under("about")
+
+    @property
+    def tick(self) -> str:
+        """Put at every tick: inputs, hash, acknowledgements."""
+        return self._under("tick")
+
+    @property
+    def snapshot(self) -> str:
+        """Put now and then: the full state, in parts."""
+        return self._under("snapshot")
+
+    @property
+    def history(self) -> str:
+        """Query: a range of ticks, or a snapshot."""
+        return self._under("history")
+
+    @property
+    def status(self) -> str:
+        """Query: rates, clients, lateness, what was refused."""
+        return self._under("status")
+
+    @property
+    def inputs(self) -> str:
+        """The input keys of all clients, for the server to subscribe to."""
+        return self._under("input/*")
+
+    @property
+    def clients(self) -> str:
+        """The liveliness tokens of all clients."""
+        return self._under("client/*")
+
+    def input(self, client: str) -> str:
+        """Put by the client of that name, and by nobody else."""
+        return self._under(f"input/{check_name('client', client)}")
+
+    def client(self, client: str) -> str:
+        """Liveliness token of the client of that name."""
+        return self._under(f"client/{check_name('client', client)}")
+
+    @staticmethod
+    def client_of(key: str) -> str:
+        """Name of the client that an input or liveliness key belongs to; raises ProtocolError."""
+        return check_name("client", key.rpartition("/")[2])
+
+    @staticmethod
+    def world_of(key: str) -> str:
+        """Name of the world that a key belongs to; raises ProtocolError."""
+        chunks = key.split("/")
+        if len(chunks) < 3 or chunks[0] != ROOT:
+            raise ProtocolError(f"key {key[:64]!r}: must begin with '{ROOT}/' and a world's name")
+        return check_name("world", chunks[1])

@@ -1,0 +1,31 @@
+"""What a client must know before it can step: joining starts here."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, ClassVar
+
+from pydantic import Field
+
+from kuglice.protocol.messages.envelope import Message, TickNumber
+
+__all__ = ["About"]
+
+
+class About(Message):
+    """Scene and model as their own modules put them into messages; clients never plan for themselves.
+
+    `rate` is in ticks per second of wall clock; `step_version` changes when some state would step to other bits.
+    """
+
+    kind: ClassVar[str] = "about"
+    max_bytes: ClassVar[int] = 256 << 20
+
+    world: str
+    version: str
+    step_version: int
+    scene: dict[str, Any]
+    model: dict[str, Any]
+    rate: Annotated[float, Field(gt=0, le=10_000)]
+    snapshot_every: Annotated[int, Field(ge=1)]
+    history_ticks: Annotated[int, Field(ge=1)]
+    tick: TickNumber

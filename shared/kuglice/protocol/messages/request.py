@@ -1,0 +1,36 @@
+"""What is asked on the history key. The epoch is the one the asker lives in: a restarted server refuses it."""
+
+from __future__ import annotations
+
+from typing import ClassVar, Self
+
+from pydantic import model_validator
+
+from kuglice.protocol.messages.envelope import Message, TickNumber
+
+__all__ = ["SnapshotRequest", "TickRange"]
+
+
+class TickRange(Message):
+    """Asks for the ticks first .. end - 1."""
+
+    kind: ClassVar[str] = "ticks?"
+    max_bytes: ClassVar[int] = 512
+
+    first: TickNumber
+    end: TickNumber
+
+    @model_validator(mode="after")
+    def _not_empty(self) -> Self:
+        if self.end <= self.first:
+            raise ValueError(f"end {self.end}: must be above first {self.first}")
+        return self
+
+
+class SnapshotRequest(Message):
+    """Asks for the newest snapshot whose tick is `at` or before (None: the newest)."""
+
+    kind: ClassVar[str] = "snapshot?"
+    max_bytes: ClassVar[int] = 512
+
+    at: TickNumber | None
