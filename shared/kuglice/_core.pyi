@@ -164,16 +164,30 @@ def draw_discs(
 def draw_rings(pixels: Pixels, center: Floats, radius: Floats, thickness: float, colour: Pixels) -> None:
     """Blend rings between `radius - thickness` and `radius`; the rest as for discs."""
 
-def draw_segments(pixels: Pixels, start: Floats, end: Floats, thickness: Floats, colour: Pixels) -> None:
-    """Blend line segments with round ends: `start` and `end` (n, 2), `thickness` (n,), `colour` (n, 4)."""
+def draw_segments(
+    pixels: Pixels, start: Floats, end: Floats, thickness: Floats, colour: Pixels, lighten: bool = False
+) -> None:
+    """Blend line segments with round ends: `start` and `end` (n, 2), `thickness` (n,), `colour` (n, 4).
+
+    `lighten` keeps what is lighter already, so that joints of a trail are no brighter than the rest.
+    """
 
 def draw_rectangles(pixels: Pixels, rectangle: Floats, thickness: float, colour: Pixels) -> None:
     """Blend outlines, centred on the edges of `rectangle` (n, 4): left, top, right, bottom. `colour` (n, 4)."""
 
 def draw_fluid(
-    pixels: Pixels, center: Floats, radius: Floats, value: Floats, palette: Pixels, opacity: float
+    pixels: Pixels,
+    center: Floats,
+    radius: Floats,
+    value: Floats,
+    palette: Pixels,
+    opacity: float,
+    window: tuple[int, int, int, int] | None = None,
 ) -> None:
-    """Blend balls as one liquid surface. `value` (n,) within 0 and 1 chooses from `palette` (k, 3)."""
+    """Blend balls as one liquid surface. `value` (n,) within 0 and 1 chooses from `palette` (k, 3).
+
+    `window` (first column, first row, last column + 1, last row + 1) is the part of the picture that may get wet.
+    """
 
 def fade(pixels: Pixels, target: Pixels, keep: int) -> None:
     """Move `pixels` towards `target` of the same shape, keeping `keep` / 256 of the difference."""

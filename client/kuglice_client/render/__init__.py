@@ -9,9 +9,10 @@ A moment is what is to be seen: arrays, not a world, so that a client can draw a
         after = renderer.look(world, HashState(hash, tick, "equal"))
         output.write(renderer.frame(between(before, after, alpha)))
 
-`renderer.frame(moment)` returns (height, width, 3) bytes that the next frame draws over; `output.write` copies them
-and encodes in a thread of its own, so the caller's loop waits only when `output.behind` has reached its bound. A Moment
-can also be made from arrays alone. `STYLES`, `OVERLAYS` and `OUTPUTS` are the tables of what there is.
+`renderer.frame(moment)` returns (height, width, 3) bytes that the next frame draws over. `output.write`
+copies them and encodes in a thread of its own; when too many frames wait there, `write` waits too, or with
+`wait=False` leaves the frame out, which a loop in real time wants. A Moment can also be made from arrays
+alone. `STYLES`, `OVERLAYS` and `OUTPUTS` are the tables of what there is.
 """
 
 from __future__ import annotations

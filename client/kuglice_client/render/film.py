@@ -6,7 +6,6 @@ from collections.abc import Iterable
 from os import PathLike
 
 from kuglice.world import World
-
 from kuglice_client.render.moment import between
 from kuglice_client.render.outputs import open_output
 from kuglice_client.render.renderer import Renderer
@@ -27,10 +26,10 @@ def film(
 ) -> int:
     """Draw the states that `worlds` yields, one per tick and the first one too; the number of frames.
 
-    The same world may be yielded again and again as it moves. Frames lie 1 / fps seconds apart, between two states
-    where they fall between two ticks; at a `speed` of 2 the film shows two seconds of the scene per second. The entry
-    point of the group `kuglice.renderers`. Raises PictureError and MissingExtraError, before the first step of a lazy
-    iterable.
+    The same world may be yielded again and again as it moves. Frames lie 1 / fps seconds apart, between two
+    states where they fall between two ticks; at a `speed` of 2 the film shows two seconds of the scene per
+    second. The entry point of the group `kuglice.renderers`. Raises PictureError and MissingExtraError,
+    before the second state is asked for.
     """
     renderer = None
     output = None

@@ -50,7 +50,8 @@ class Moment:
 def between(previous: Moment, current: Moment, alpha: float) -> Moment:
     """The moment alpha * current + (1 - alpha) * previous, alpha within 0 and 1.
 
-    Balls that only one of the two has are drawn as the current one says. The rest of the moment is the current one's.
+    A ball that is new is drawn where it is now, one that is gone is not drawn. The rest is the current
+    moment's.
     """
     time = alpha * current.time + (1 - alpha) * previous.time
     if np.array_equal(previous.id, current.id):

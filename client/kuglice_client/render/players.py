@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from kuglice import _core
 
+from kuglice import _core
 from kuglice_client.render.moment import Moment
 from kuglice_client.render.stage import Pixels, Stage
 

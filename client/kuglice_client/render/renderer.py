@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
+
 from kuglice.errors import PictureError
 from kuglice.picture import Camera, background, reference_speed
 from kuglice.scene import Scene
 from kuglice.world import World
-
 from kuglice_client.render.moment import HashState, Moment
 from kuglice_client.render.overlays import OVERLAYS
-from kuglice_client.render.stage import Pixels, Stage
+from kuglice_client.render.stage import Layer, Pixels, Stage
 from kuglice_client.render.styles import STYLES
 from kuglice_client.render.trails import Trails
 
@@ -22,9 +22,10 @@ __all__ = ["Renderer"]
 class Renderer:
     """Draws moments of one scene, all at the same size and in the same way.
 
-    `style` and `overlays` name entries of STYLES and OVERLAYS; `trails` is the time in seconds after which a trail has
-    all but gone, 0 for none; `own` is the client whose ball is marked as one's own; `reference` is the speed that gets
-    the last colour, by default taken from the scene. Raises PictureError for a name, size or time that cannot be.
+    `style` and `overlays` name entries of STYLES and OVERLAYS; `trails` is the time in seconds after which a
+    trail has all but gone, 0 for none; `own` is the client whose ball is marked as one's own; `reference` is
+    the speed that gets the last colour, by default taken from the scene. Raises PictureError for a name, size
+    or time that cannot be.
     """
 
     def __init__(
@@ -43,8 +44,8 @@ class Renderer:
         if not speed > 0:
             raise PictureError(f"reference speed {speed}: must be above 0")
         self.stage = Stage(scene, camera, speed, own)
-        self._style = STYLES[_known("style", style, STYLES)]
-        self._overlays = [OVERLAYS[_known("overlay", name, OVERLAYS)] for name in overlays]
+        self._style = _known("style", style, STYLES)
+        self._overlays = [_known("overlay", name, OVERLAYS) for name in overlays]
         self._names = frozenset(overlays)
         self._background = background(camera, walls=scene.walls)
         self._trails = Trails(self._background, trails) if _duration(trails) else None
@@ -53,8 +54,8 @@ class Renderer:
     def look(self, world: World, hash_state: HashState | None = None) -> Moment:
         """A moment of a world: copies of what this renderer draws, and nothing else.
 
-        `hash_state` is what is known about the world's agreement with a server; without it the overlay shows the hash
-        of this world.
+        `hash_state` is what is known about the world's agreement with a server; without it the overlay shows
+        the hash of this world.
         """
         mass = world.mass
         if hash_state is None and "tick" in self._names:
@@ -84,11 +85,10 @@ class Renderer:
         return self._pixels
 
 
-def _known(what: str, name: str, table: dict[str, object] | object) -> str:
-    names = list(table)  # type: ignore[call-overload]
-    if name not in names:
-        raise PictureError(f"{what} {name!r}: there is none of that name, only {', '.join(names)}")
-    return name
+def _known(what: str, name: str, table: Mapping[str, Layer]) -> Layer:
+    if name not in table:
+        raise PictureError(f"{what} {name!r}: there is none of that name, only {', '.join(table)}")
+    return table[name]
 
 
 def _duration(trails: float) -> float:

@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from kuglice.picture import Camera
-from kuglice.scene import Scene
 from numpy.typing import NDArray
 
+from kuglice.picture import Camera
+from kuglice.scene import Scene
 from kuglice_client.render.moment import Moment
 
 __all__ = ["Layer", "Pixels", "Stage"]
@@ -19,7 +19,7 @@ Pixels = NDArray[np.uint8]
 
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """The scene, how it is seen, the speed that gets the last colour, and the client that looks (None: nobody)."""
+    """The scene, how it is seen, the speed that gets the last colour, and the client that looks (or None)."""
 
     scene: Scene
     camera: Camera

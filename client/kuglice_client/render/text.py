@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from kuglice.extras import extra
 from numpy.typing import NDArray
+
+from kuglice.extras import extra
 
 __all__ = ["Font"]
 
@@ -19,7 +20,7 @@ class Font:
 
     def __init__(self, size: int) -> None:
         with extra("render"):
-            from PIL import ImageFont
+            from PIL import ImageFont  # noqa: PLC0415 - an extra
         self.size = size
         self._font = ImageFont.load_default(size)
         self._cell = max(self._font.getlength(digit) for digit in SAME_WIDTH)
@@ -61,7 +62,7 @@ class Font:
 
     def _glyph(self, letter: str) -> tuple[NDArray[np.float32], int, int]:
         if letter not in self._glyphs:
-            from PIL import Image, ImageDraw
+            from PIL import Image, ImageDraw  # noqa: PLC0415 - an extra
 
             left, top, right, bottom = (round(side) for side in self._font.getbbox(letter, anchor="ls"))
             image = Image.new("L", (max(1, right - left), max(1, bottom - top)))

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
+
 from kuglice import _core
 from kuglice.picture import speed_colours
-
 from kuglice_client.render.moment import Moment
 from kuglice_client.render.players import player_colours
 from kuglice_client.render.stage import Pixels, Stage
@@ -22,7 +22,7 @@ LEFT = 0.05
 
 
 class Trails:
-    """A picture behind the balls to which every frame adds the way since the last one, after fading what is there.
+    """A picture behind the balls to which every frame adds the way since the last one, after fading the rest.
 
     So the cost does not depend on how long trails are. A jump back in time starts anew.
     """
@@ -60,4 +60,5 @@ class Trails:
             stage.camera.points(end[moved]),
             stage.camera.lengths(radius[moved]) * THICKNESS,
             colours[moved],
+            lighten=True,
         )

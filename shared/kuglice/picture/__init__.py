@@ -4,7 +4,8 @@
     pixels = background(camera)
     draw_balls(pixels, camera, position, radius, speed_colours(velocity, reference_speed(scene)))
 
-`draw` does all of that at once, `png` is what notebooks show. Writing PNG needs the extra `render`; drawing does not.
+`draw` does all of that at once, `png` is what notebooks show. Writing PNG needs the extra `render`; drawing
+does not.
 """
 
 from __future__ import annotations

@@ -35,7 +35,7 @@ def background(camera: Camera, *, walls: bool = True) -> Pixels:
 
 
 def _dithered(rows: NDArray[np.float64], width: int) -> Pixels:
-    """(n, 3) colours of rows -> (n, width, 3) bytes, without the bands that rounding a dark gradient leaves."""
+    """(n, 3) colours of rows -> (n, width, 3) bytes, without the bands of a rounded dark gradient."""
     x, y = np.meshgrid(np.arange(width), np.arange(len(rows)))
     # Interleaved gradient noise (J. Jimenez, Next Generation Post Processing in Call of Duty, 2014).
     noise = np.modf(52.9829189 * np.modf(0.06711056 * x + 0.00583715 * y)[0])[0]

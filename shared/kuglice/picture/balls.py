@@ -19,8 +19,8 @@ Pixels = NDArray[np.uint8]
 def draw_balls(pixels: Pixels, camera: Camera, position: Floats, radius: Floats, colours: Pixels) -> None:
     """Draw balls onto a picture, in place, in order.
 
-    `position` (n, 2) and `radius` (n,) in units of the scene, `colours` (n, 4) red, green, blue, opacity. The middle
-    of a ball has its colour; the rest is shaded as if lit from the top left.
+    `position` (n, 2) and `radius` (n,) in units of the scene, `colours` (n, 4) red, green, blue, opacity. The
+    middle of a ball has its colour; the rest is shaded as if lit from the top left.
     """
     _core.draw_discs(pixels, camera.points(position), camera.lengths(radius), colours, shaded=True)
 
@@ -38,8 +38,8 @@ def draw(
 ) -> Pixels:
     """A picture (height, width, 3) of balls coloured by speed.
 
-    `reference` is the speed that gets the last colour, by default the highest there is. Raises PictureError for a
-    size or a box that cannot be drawn.
+    `reference` is the speed that gets the last colour, by default the highest there is. Raises PictureError
+    for a size or a box that cannot be drawn.
     """
     camera = Camera.fit(box, Camera.size_for(box) if size is None else size)
     if reference is None:

@@ -22,7 +22,7 @@ LARGEST = 16_384
 class Camera:
     """Sees `box` (left, bottom, right, top) in the middle of a picture of `size` (width, height) pixels.
 
-    The y axis of the scene goes up, that of the picture down; both have the same `scale`, pixels per unit of length.
+    The y axis of the scene goes up, that of the picture down; both have the same `scale`, pixels per unit.
     """
 
     box: tuple[float, float, float, float]
@@ -31,7 +31,7 @@ class Camera:
 
     @classmethod
     def fit(cls, box: tuple[float, float, float, float], size: tuple[int, int], margin: float = 12.0) -> Self:
-        """The largest view of the whole box that leaves `margin` pixels on every side. Raises PictureError."""
+        """The largest view of the whole box that leaves `margin` pixels on each side. Raises PictureError."""
         width, height = size
         if not (1 <= width <= LARGEST and 1 <= height <= LARGEST):
             raise PictureError(f"size {width}x{height}: each side must be within 1 and {LARGEST} pixels")
@@ -43,7 +43,7 @@ class Camera:
 
     @staticmethod
     def size_for(box: tuple[float, float, float, float], longest: int = 1000) -> tuple[int, int]:
-        """A size with the proportions of the box, even on both sides, and the longer side `longest` pixels."""
+        """A size with the proportions of the box, both sides even, the longer one `longest` pixels."""
         left, bottom, right, top = box
         wide, tall = right - left, top - bottom
         unit = longest / max(wide, tall)
@@ -59,11 +59,13 @@ class Camera:
         """(n, 2) in the scene -> (n, 2) in pixels."""
         (x, y), (width, height) = self.middle, self.size
         scale = np.array([self.scale, -self.scale])
-        return np.asarray(position) * scale + (width / 2 - x * self.scale, height / 2 + y * self.scale)
+        origin = np.array([width / 2 - x * self.scale, height / 2 + y * self.scale])
+        pixels: Floats = np.asarray(position, dtype=np.float64) * scale + origin
+        return pixels
 
     def lengths(self, length: Floats) -> Floats:
         """Lengths in the scene -> in pixels."""
-        return np.asarray(length) * self.scale
+        return np.multiply(length, self.scale)
 
     def rectangles(self, sides: Floats) -> Floats:
         """(k, 4) left, bottom, right, top in the scene -> (k, 4) left, top, right, bottom in pixels."""

@@ -38,7 +38,7 @@ def png(world: World, size: tuple[int, int] | None = None) -> bytes:
 def encode_png(pixels: NDArray[np.uint8]) -> bytes:
     """(height, width, 3) bytes -> a PNG file. Raises MissingExtraError without Pillow."""
     with extra("render"):
-        from PIL import Image
+        from PIL import Image  # noqa: PLC0415 - an extra
     file = io.BytesIO()
     # The default effort takes three times as long for a few per cent fewer bytes.
     Image.fromarray(pixels).save(file, "PNG", compress_level=3)

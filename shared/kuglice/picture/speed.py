@@ -18,9 +18,16 @@ Floats = NDArray[np.float64]
 Pixels = NDArray[np.uint8]
 
 SPEED_PALETTE: Pixels = ramp(
-    [(0.47, 0.12, 265), (0.55, 0.19, 290), (0.64, 0.22, 350), (0.73, 0.18, 40), (0.86, 0.15, 85), (0.96, 0.07, 100)]
+    [
+        (0.47, 0.12, 265),
+        (0.55, 0.19, 290),
+        (0.64, 0.22, 350),
+        (0.73, 0.18, 40),
+        (0.86, 0.15, 85),
+        (0.96, 0.07, 100),
+    ]
 )
-"""(256, 3) from slow, a dark blue, to fast, a pale yellow: ever lighter, so that it also reads without colour."""
+"""(256, 3) from slow, a dark blue, to fast, a pale yellow: ever lighter, so it reads without colour too."""
 
 PEG: Pixels = np.array([104, 114, 130], dtype=np.uint8)
 """Balls that nothing moves."""
@@ -29,18 +36,17 @@ PEG: Pixels = np.array([104, 114, 130], dtype=np.uint8)
 def reference_speed(scene: Scene) -> float:
     """The speed that gets the last colour. It depends on the scene alone, so all pictures of a scene agree.
 
-    The largest of: what nearly all balls have at the start, what a ball gains by falling through the box, and a tenth
-    of the box's diagonal per second.
+    v^2 = (2 rms)^2 + g h: in equilibrium all but e^-4 = 2 % of the balls stay below twice the root mean square of
+    the speeds, here those at the start, and sqrt(g h) is what a fall through half of the box adds. Where nothing
+    moves and nothing falls, a tenth of the box's diagonal per second.
     """
     left, bottom, right, top = scene.box
-    speeds = [float(np.hypot(right - left, top - bottom)) / 10]
-    if len(scene.balls):
-        speeds.append(float(np.percentile(np.hypot(*scene.balls.velocity.T), 99)))
+    moving = scene.balls.velocity[np.isfinite(scene.balls.mass)]
+    square = 4 * float(np.square(moving).sum()) / max(1, len(moving))
     for force in scene.forces:
         if force.kind == "gravity":
-            fall = abs(force.x) * (right - left) + abs(force.y) * (top - bottom)
-            speeds.append(float(np.sqrt(2 * fall)) * 0.8)
-    return max(speeds)
+            square += abs(force.x) * (right - left) + abs(force.y) * (top - bottom)
+    return float(np.sqrt(square)) or float(np.hypot(right - left, top - bottom)) / 10
 
 
 def speed_values(velocity: Floats, reference: float) -> Floats:

@@ -7,7 +7,6 @@ from os import PathLike
 from pathlib import Path
 
 from kuglice.errors import PictureError
-
 from kuglice_client.render.outputs.gif import Gif
 from kuglice_client.render.outputs.output import Encoder, Output
 from kuglice_client.render.outputs.png import open_png
@@ -26,10 +25,10 @@ OUTPUTS: dict[str, Callable[[Path, tuple[int, int], float], Encoder]] = {
 def open_output(path: str | PathLike[str], *, size: tuple[int, int], fps: float, depth: int = 8) -> Output:
     """Open a film or pictures for frames of `size` (width, height), `fps` frames per second.
 
-    The suffix says the kind: `.mp4`, `.webm`, `.gif`, or `.png`: with a pattern like `frame-%05d.png` one file per
-    frame, counted from 0; without one, the last frame only. Missing folders are made, an existing file is replaced.
-    `depth` frames may wait for their encoding. Raises PictureError for what cannot be opened as asked, and
-    MissingExtraError without the extra `render`.
+    The suffix says the kind: `.mp4`, `.webm`, `.gif`, or `.png`: with a pattern like `frame-%05d.png` one
+    file per frame, counted from 0; without one, the last frame only. Missing folders are made, an existing
+    file is replaced. `depth` frames may wait for their encoding. Raises PictureError for what cannot be
+    opened as asked, and MissingExtraError without the extra `render`.
     """
     target = Path(path)
     kind = OUTPUTS.get(target.suffix.lower())

@@ -6,8 +6,9 @@ from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
-from kuglice.extras import extra
 from numpy.typing import NDArray
+
+from kuglice.extras import extra
 
 __all__ = ["Gif"]
 
@@ -22,8 +23,8 @@ class Gif:
 
     def __init__(self, path: Path, size: tuple[int, int], fps: float) -> None:
         with extra("render"):
-            import av
-            from av.filter import Graph
+            import av  # noqa: PLC0415 - an extra
+            from av.filter import Graph  # noqa: PLC0415 - an extra
         self._rate = Fraction(fps).limit_denominator(1001)
         self._container = av.open(str(path), "w", format="gif", options={"loop": "0"})
         self._stream = self._container.add_stream("gif", rate=100)
@@ -47,7 +48,7 @@ class Gif:
 
     def write(self, pixels: Pixels, number: int) -> None:
         """Reduce a frame to its palette and write it."""
-        import av
+        import av  # noqa: PLC0415 - an extra
 
         frame = av.VideoFrame.from_ndarray(pixels, format="rgb24")
         frame.pts = round(number / self._rate / CENTISECOND)
@@ -56,15 +57,16 @@ class Gif:
         self._pull()
 
     def _pull(self) -> None:
-        from av.error import BlockingIOError as NothingYet
-        from av.error import EOFError as End
+        import av  # noqa: PLC0415 - an extra
+        from av.error import BlockingIOError as NothingYet  # noqa: PLC0415 - an extra
+        from av.error import EOFError as End  # noqa: PLC0415 - an extra
 
         while True:
             try:
                 frame = self._graph.pull()
             except (NothingYet, End):
                 return
-            frame.time_base = CENTISECOND
+            assert isinstance(frame, av.VideoFrame), "nothing else goes in"
             self._container.mux(self._stream.encode(frame))
 
     def close(self) -> None:

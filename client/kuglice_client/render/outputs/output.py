@@ -9,8 +9,9 @@ from types import TracebackType
 from typing import Protocol, Self
 
 import numpy as np
-from kuglice.errors import PictureError
 from numpy.typing import NDArray
+
+from kuglice.errors import PictureError
 
 __all__ = ["Encoder", "Output"]
 
@@ -55,16 +56,18 @@ class Output:
     def write(self, pixels: Pixels, *, wait: bool = True) -> bool:
         """Add a copy of a frame (height, width, 3).
 
-        When too many frames wait already: wait, or, told not to, leave this one out and return False; the film then
-        shows the one before for longer, so that it keeps its time.
+        When too many frames wait already: wait, or, told not to, leave this one out and return False; the
+        film then shows the one before for longer, so that it keeps its time.
         """
         self._check()
         if self._closed:
             raise PictureError(f"output {self.path}: is closed, no frame can be added")
         width, height = self._size
         if pixels.shape != (height, width, 3) or pixels.dtype != np.uint8:
-            wanted = f"({height}, {width}, 3) of uint8"
-            raise PictureError(f"output {self.path}: a frame of {wanted} is needed, got {pixels.shape} of {pixels.dtype}")
+            got = f"{pixels.shape} of {pixels.dtype}"
+            raise PictureError(
+                f"output {self.path}: a frame ({height}, {width}, 3) of uint8 is needed, got {got}"
+            )
         number = self.frames + self.dropped
         if not wait and self._queue.full():
             self.dropped += 1

@@ -6,11 +6,11 @@ import re
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
+
 from kuglice.errors import PictureError
 from kuglice.extras import extra
 from kuglice.picture import encode_png
-from numpy.typing import NDArray
-
 from kuglice_client.render.outputs.output import Encoder
 
 __all__ = ["LastPicture", "PictureSequence", "open_png"]
@@ -23,11 +23,11 @@ PATTERN = re.compile(r"%(0\d+)?d")
 def open_png(path: Path, size: tuple[int, int], fps: float) -> Encoder:
     """A sequence if the name has a number pattern (`%d`, `%05d`), otherwise the last frame alone."""
     with extra("render"):
-        import PIL  # noqa: F401 - told now rather than at the first frame
+        import PIL  # noqa: F401, PLC0415 - an extra; told now rather than at the first frame
     if "%" not in path.name:
         return LastPicture(path)
     if len(PATTERN.findall(path.name)) != 1 or path.name.count("%") != 1:
-        raise PictureError(f"output {path}: one number pattern like %05d is needed in the name, got {path.name!r}")
+        raise PictureError(f"output {path}: its name needs one number pattern like %05d")
     return PictureSequence(path)
 
 

@@ -7,9 +7,10 @@ from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
+
 from kuglice.errors import PictureError
 from kuglice.extras import extra
-from numpy.typing import NDArray
 
 __all__ = ["Mp4", "WebM"]
 
@@ -29,28 +30,32 @@ class Video:
 
     def __init__(self, path: Path, size: tuple[int, int], fps: float) -> None:
         with extra("render"):
-            import av
+            import av  # noqa: PLC0415 - an extra
         width, height = size
         if width % 2 or height % 2:
             raise PictureError(f"output {path}: a film needs even numbers of pixels, got {width}x{height}")
         rate = Fraction(fps).limit_denominator(1001)
         self._container = av.open(str(path), "w", options=self.container)
-        self._stream = self._container.add_stream(self.codec, rate=rate, options=self.options)
+        stream = self._container.add_stream(self.codec, rate=rate, options=self.options)
+        assert isinstance(stream, av.VideoStream), "both codecs are of video"
+        self._stream = stream
         self._stream.width, self._stream.height = size
         self._stream.pix_fmt = "yuv420p"
-        self._stream.time_base = 1 / rate
+        # The muxer gives the stream another one as soon as it writes the header; frames keep theirs.
+        self._time_base = 1 / rate
+        self._stream.time_base = self._time_base
         context = self._stream.codec_context
         context.colorspace = context.color_primaries = context.color_trc = BT709
         context.color_range = LIMITED
 
     def write(self, pixels: Pixels, number: int) -> None:
         """Encode a frame; what the codec has finished goes to the file."""
-        import av
+        import av  # noqa: PLC0415 - an extra
 
         frame = av.VideoFrame.from_ndarray(pixels, format="rgb24")
         frame = frame.reformat(format="yuv420p", dst_colorspace=BT709, dst_color_range=LIMITED)
         frame.pts = number
-        frame.time_base = self._stream.time_base
+        frame.time_base = self._time_base
         self._container.mux(self._stream.encode(frame))
 
     def close(self) -> None:
@@ -73,4 +78,10 @@ class WebM(Video):
     """Free of patents."""
 
     codec = "libvpx-vp9"
-    options: ClassVar[dict[str, str]] = {"deadline": "realtime", "cpu-used": "7", "row-mt": "1", "crf": "28", "b": "0"}
+    options: ClassVar[dict[str, str]] = {
+        "deadline": "realtime",
+        "cpu-used": "7",
+        "row-mt": "1",
+        "crf": "28",
+        "b": "0",
+    }

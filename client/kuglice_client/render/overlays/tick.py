@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
-from kuglice import _core
 
+from kuglice import _core
 from kuglice_client.render.moment import HashState, Moment, Verdict
 from kuglice_client.render.stage import Pixels, Stage
 from kuglice_client.render.text import Font
@@ -33,13 +33,18 @@ def draw_tick(pixels: Pixels, stage: Stage, moment: Moment) -> None:
     """One line in a dark pill at the top left. Needs the extra `render`, for the font."""
     height = pixels.shape[0]
     font = _font(max(9, min(28, round(height / 45))))
-    words = [(f"tick {moment.tick:>7,}", TEXT), (f"{moment.time:8.2f} s", FAINT), (f"{len(moment.id):>7,} balls", FAINT)]
+    words = [
+        (f"tick {moment.tick:,}", TEXT),
+        (f"{moment.time:.2f} s", FAINT),
+        (f"{len(moment.id):,} balls", FAINT),
+    ]
     if moment.hash_state is not None:
         words += _hash_words(moment, moment.hash_state)
     gap = 1.1 * font.size
     length = sum(font.length(word) for word, _ in words) + gap * (len(words) - 1)
     thick = 2.0 * font.size
-    left, middle = 0.7 * font.size + thick / 2, 0.7 * font.size + thick / 2
+    corner = stage.camera.window()
+    left, middle = (0.5 * font.size + thick / 2 + side for side in corner[:2])
     dot = 0.42 * font.size
     length += 0 if moment.hash_state is None else 2 * dot + 0.5 * font.size
     ends = np.array([[left, middle]]), np.array([[left + length, middle]])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from kuglice.picture import draw_balls, speed_colours
-
 from kuglice_client.render.moment import Moment
 from kuglice_client.render.players import mark_players, player_colours
 from kuglice_client.render.stage import Pixels, Stage

@@ -2,9 +2,7 @@
 
 use kuglice_raster::{Canvas, Colour, Liquid, Shading};
 use numpy::PyUntypedArrayMethods;
-use numpy::{
-    PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArrayDyn, PyReadwriteArray3, PyReadwriteArrayDyn,
-};
+use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArrayDyn, PyReadwriteArray3, PyReadwriteArrayDyn};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -65,6 +63,7 @@ fn draw_rings(
 }
 
 #[pyfunction]
+#[pyo3(signature = (pixels, start, end, thickness, colour, lighten = false))]
 fn draw_segments(
     py: Python<'_>,
     mut pixels: Pixels<'_>,
@@ -72,6 +71,7 @@ fn draw_segments(
     end: Floats2<'_>,
     thickness: Floats1<'_>,
     colour: Bytes2<'_>,
+    lighten: bool,
 ) -> PyResult<()> {
     let start = rows("start", &start)?;
     let end = rows("end", &end)?;
@@ -81,7 +81,7 @@ fn draw_segments(
     same_length("thickness", thickness.len(), start.len())?;
     same_length("colour", colour.len(), start.len())?;
     draw(py, &mut pixels, |canvas| {
-        kuglice_raster::draw_segments(canvas, &start, &end, &thickness, &colour)
+        kuglice_raster::draw_segments(canvas, &start, &end, &thickness, &colour, lighten)
     })
 }
 
@@ -102,6 +102,8 @@ fn draw_rectangles(
 }
 
 #[pyfunction]
+#[pyo3(signature = (pixels, center, radius, value, palette, opacity, window = None))]
+#[expect(clippy::too_many_arguments, reason = "one per keyword in Python")]
 fn draw_fluid(
     py: Python<'_>,
     mut pixels: Pixels<'_>,
@@ -110,14 +112,11 @@ fn draw_fluid(
     value: Floats1<'_>,
     palette: Bytes2<'_>,
     opacity: f64,
+    window: Option<[usize; 4]>,
 ) -> PyResult<()> {
     let center = rows("center", &center)?;
     let radius = radius.as_array().to_vec();
-    let value: Vec<f32> = value
-        .as_array()
-        .iter()
-        .map(|&number| number as f32)
-        .collect();
+    let value: Vec<f32> = value.as_array().iter().map(|&number| number as f32).collect();
     let palette: Vec<[u8; 3]> = rows("palette", &palette)?;
     same_length("radius", radius.len(), center.len())?;
     same_length("value", value.len(), center.len())?;
@@ -134,6 +133,7 @@ fn draw_fluid(
     let liquid = Liquid {
         palette: &palette,
         opacity: opacity as f32,
+        window,
     };
     draw(py, &mut pixels, |canvas| {
         kuglice_raster::draw_fluid(canvas, &center, &radius, &value, liquid)
@@ -158,20 +158,14 @@ fn fade(
     if keep > 256 {
         return Err(PyValueError::new_err(format!("keep: {keep} is above 256")));
     }
-    let pixels = pixels
-        .as_slice_mut()
-        .map_err(|_| not_contiguous("pixels"))?;
+    let pixels = pixels.as_slice_mut().map_err(|_| not_contiguous("pixels"))?;
     let target = target.as_slice().map_err(|_| not_contiguous("target"))?;
     py.detach(|| kuglice_raster::fade(pixels, target, keep));
     Ok(())
 }
 
 /// Run a drawing function over a numpy picture without the GIL.
-fn draw(
-    py: Python<'_>,
-    pixels: &mut Pixels<'_>,
-    paint: impl FnOnce(&mut Canvas) + Send,
-) -> PyResult<()> {
+fn draw(py: Python<'_>, pixels: &mut Pixels<'_>, paint: impl FnOnce(&mut Canvas) + Send) -> PyResult<()> {
     let shape = pixels.shape();
     let (height, width, channels) = (shape[0], shape[1], shape[2]);
     if channels != 3 {
@@ -179,12 +173,10 @@ fn draw(
             "pixels: shape (height, width, 3) wanted, last is {channels}"
         )));
     }
-    let bytes = pixels
-        .as_slice_mut()
-        .map_err(|_| not_contiguous("pixels"))?;
+    let bytes = pixels.as_slice_mut().map_err(|_| not_contiguous("pixels"))?;
     py.detach(|| {
-        let mut canvas = Canvas::new(bytes, width, height)
-            .map_err(|error| PyValueError::new_err(error.to_string()))?;
+        let mut canvas =
+            Canvas::new(bytes, width, height).map_err(|error| PyValueError::new_err(error.to_string()))?;
         paint(&mut canvas);
         Ok(())
     })

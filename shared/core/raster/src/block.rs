@@ -22,10 +22,7 @@ pub(crate) fn coverage(x: f32, y: f32, radius: f32) -> Lanes {
         let depth = (inwards - distance).clamp(-1.0, 1.0);
         // Of a pixel so near the middle that the bound counts, all is covered whatever its normal.
         let turn = 1.0 / distance.max(0.5);
-        let (wide, tall) = (
-            (dx.abs() * turn).max(FLATTEST),
-            (y.abs() * turn).max(FLATTEST),
-        );
+        let (wide, tall) = ((dx.abs() * turn).max(FLATTEST), (y.abs() * turn).max(FLATTEST));
         let (sum, difference) = (0.5 * (wide + tall), 0.5 * (wide - tall));
         let corners = square(depth + sum) - square(depth + difference) - square(depth - difference)
             + square(depth - sum);

@@ -40,9 +40,7 @@ impl std::error::Error for SizeError {}
 impl<'a> Canvas<'a> {
     /// Borrow a buffer as a picture.
     pub fn new(pixels: &'a mut [u8], width: usize, height: usize) -> Result<Self, SizeError> {
-        let wanted = width
-            .checked_mul(height)
-            .and_then(|area| area.checked_mul(3));
+        let wanted = width.checked_mul(height).and_then(|area| area.checked_mul(3));
         if wanted == Some(pixels.len()) {
             Ok(Self {
                 pixels,

@@ -37,11 +37,7 @@ pub(crate) const FLATTEST: f32 = 0.01;
 #[inline]
 pub(crate) fn disc(x: f64, y: f64, radius: f64) -> f64 {
     let distance = (x * x + y * y).sqrt();
-    half_plane(
-        radius - distance - CURVATURE / radius,
-        x / distance,
-        y / distance,
-    )
+    half_plane(radius - distance - CURVATURE / radius, x / distance, y / distance)
 }
 
 /// Discs below this radius are smaller than the pixels' own structure, and measured by lines instead.

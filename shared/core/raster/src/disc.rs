@@ -25,8 +25,7 @@ pub fn draw_discs(
     colours: &[Colour],
     shading: Shading,
 ) {
-    for ((&[x, y], &radius), &[red, green, blue, opacity]) in centers.iter().zip(radii).zip(colours)
-    {
+    for ((&[x, y], &radius), &[red, green, blue, opacity]) in centers.iter().zip(radii).zip(colours) {
         let finite = x.is_finite() && y.is_finite() && radius.is_finite();
         if !finite || radius <= 0.0 || opacity == 0 {
             continue;
@@ -166,16 +165,13 @@ fn draw_large(canvas: &mut Canvas, [x, y]: [f64; 2], radius: f64, opacity: u8, p
                 }
                 if inner.contains(&(dx + (PIXELS - 1) as f64)) && end - column == PIXELS {
                     let bytes = paint.block(dx as f32, dy as f32).map(round);
-                    pixels[column..end]
-                        .as_flattened_mut()
-                        .copy_from_slice(&bytes);
+                    pixels[column..end].as_flattened_mut().copy_from_slice(&bytes);
                     column = end;
                     continue;
                 }
             }
             let colours = paint.block(dx as f32, dy as f32);
-            let weights =
-                coverage(dx as f32, dy as f32, radius as f32).map(|covered| covered * part);
+            let weights = coverage(dx as f32, dy as f32, radius as f32).map(|covered| covered * part);
             draw_block(&mut pixels[column..end], &colours, &weights);
             column = end;
         }

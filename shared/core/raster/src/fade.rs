@@ -7,11 +7,7 @@ pub fn fade(pixels: &mut [u8], target: &[u8], keep: u16) {
     let keep = keep.min(256);
     for (pixel, &goal) in pixels.iter_mut().zip(target) {
         let rest = ((u16::from(pixel.abs_diff(goal)) * keep) >> 8) as u8;
-        *pixel = if *pixel > goal {
-            goal + rest
-        } else {
-            goal - rest
-        };
+        *pixel = if *pixel > goal { goal + rest } else { goal - rest };
     }
 }
 

@@ -6,12 +6,7 @@ use crate::canvas::{Canvas, blend, weight};
 /// Blend outlines of rectangles (left, top, right, bottom) onto the picture, in order.
 ///
 /// The line lies half inside and half outside of the rectangle's edge. Coverage is exact.
-pub fn draw_rectangles(
-    canvas: &mut Canvas,
-    rectangles: &[[f64; 4]],
-    thickness: f64,
-    colours: &[Colour],
-) {
+pub fn draw_rectangles(canvas: &mut Canvas, rectangles: &[[f64; 4]], thickness: f64, colours: &[Colour]) {
     let half = 0.5 * thickness;
     for (&[left, top, right, bottom], &colour) in rectangles.iter().zip(colours) {
         let finite = [left, top, right, bottom, half]
@@ -30,11 +25,7 @@ pub fn draw_rectangles(
             continue;
         }
         // The corners belong to the horizontal bars alone: what is half transparent is not to be drawn twice.
-        fill_box(
-            canvas,
-            [outer_left, top - half, outer_right, top + half],
-            colour,
-        );
+        fill_box(canvas, [outer_left, top - half, outer_right, top + half], colour);
         fill_box(
             canvas,
             [outer_left, bottom - half, outer_right, bottom + half],
@@ -53,22 +44,14 @@ pub fn draw_rectangles(
     }
 }
 
-fn fill_box(
-    canvas: &mut Canvas,
-    [left, top, right, bottom]: [f64; 4],
-    [red, green, blue, opacity]: Colour,
-) {
+fn fill_box(canvas: &mut Canvas, [left, top, right, bottom]: [f64; 4], [red, green, blue, opacity]: Colour) {
     let columns = canvas.columns(left, right);
     for row in canvas.rows(top, bottom) {
         let tall = overlap(row, top, bottom);
         let pixels = canvas.row(row);
         for column in columns.clone() {
             let part = tall * overlap(column, left, right);
-            blend(
-                &mut pixels[column],
-                [red, green, blue],
-                weight(part, opacity),
-            );
+            blend(&mut pixels[column], [red, green, blue], weight(part, opacity));
         }
     }
 }

@@ -12,8 +12,7 @@ pub fn draw_rings(
     thickness: f64,
     colours: &[Colour],
 ) {
-    for ((&[x, y], &radius), &[red, green, blue, opacity]) in centers.iter().zip(radii).zip(colours)
-    {
+    for ((&[x, y], &radius), &[red, green, blue, opacity]) in centers.iter().zip(radii).zip(colours) {
         let finite = x.is_finite() && y.is_finite() && radius.is_finite() && thickness.is_finite();
         if finite && radius > 0.0 && thickness > 0.0 {
             draw_ring(
@@ -50,11 +49,7 @@ fn draw_ring(
             if dx.abs() < skip {
                 continue;
             }
-            let inner = if hole >= SMALL {
-                disc(dx, dy, hole)
-            } else {
-                0.0
-            };
+            let inner = if hole >= SMALL { disc(dx, dy, hole) } else { 0.0 };
             let outer = if dx == 0.0 && dy == 0.0 {
                 1.0
             } else {

@@ -1,33 +1,33 @@
-//! Line segments with round ends: trails and arrows.
+//! Line segments with round ends: trails.
 
 use crate::Colour;
 use crate::canvas::{Canvas, blend, weight};
 
 /// Blend line segments onto the picture, in order: everything within half of a segment's thickness.
 ///
-/// The coverage of a pixel is taken from the distance of its centre, so it is right to about a tenth of a pixel.
+/// With `lighten`, each channel becomes the larger of what is there and the colour times its weight, so that where
+/// the segments of a trail meet it is no brighter than elsewhere. The coverage of a pixel is taken from the distance of its centre, so it is right to about a tenth of a pixel.
 pub fn draw_segments(
     canvas: &mut Canvas,
     starts: &[[f64; 2]],
     ends: &[[f64; 2]],
     thickness: &[f64],
     colours: &[Colour],
+    lighten: bool,
 ) {
-    for (((&start, &end), &thickness), &colour) in
-        starts.iter().zip(ends).zip(thickness).zip(colours)
-    {
+    for (((&start, &end), &thickness), &colour) in starts.iter().zip(ends).zip(thickness).zip(colours) {
         let finite = start
             .iter()
             .chain(&end)
             .chain([&thickness])
             .all(|number| number.is_finite());
         if finite && thickness > 0.0 {
-            draw_segment(canvas, start, end, 0.5 * thickness, colour);
+            draw_segment(canvas, [start, end], 0.5 * thickness, colour, lighten);
         }
     }
 }
 
-fn draw_segment(canvas: &mut Canvas, start: [f64; 2], end: [f64; 2], half: f64, colour: Colour) {
+fn draw_segment(canvas: &mut Canvas, [start, end]: [[f64; 2]; 2], half: f64, colour: Colour, lighten: bool) {
     let [red, green, blue, opacity] = colour;
     let [run, rise] = [end[0] - start[0], end[1] - start[1]];
     let square = run * run + rise * rise;
@@ -55,11 +55,15 @@ fn draw_segment(canvas: &mut Canvas, start: [f64; 2], end: [f64; 2], half: f64, 
             let along = ((dx * run + dy * rise) * scale).clamp(0.0, 1.0);
             let [dx, dy] = [dx - along * run, dy - along * rise];
             let part = (reach - (dx * dx + dy * dy).sqrt()).clamp(0.0, full);
-            blend(
-                &mut pixels[column],
-                [red, green, blue],
-                weight(part, opacity),
-            );
+            let weight = weight(part, opacity);
+            if lighten {
+                let pixel = &mut pixels[column];
+                for (channel, new) in pixel.iter_mut().zip([red, green, blue]) {
+                    *channel = (*channel).max((u32::from(new) * weight / 255) as u8);
+                }
+            } else {
+                blend(&mut pixels[column], [red, green, blue], weight);
+            }
         }
     }
 }

@@ -7,10 +7,10 @@ pub(super) const CELL: usize = 2;
 pub(super) const MARGIN: usize = 2;
 
 /// Radius of a ball's bump, in radii of the ball.
-const SPREAD: f64 = 2.5;
+const SPREAD: f64 = 3.6;
 
 /// Height of a bump at the ball's own rim: (1 - 1 / SPREAD^2)^3.
-pub(super) const THRESHOLD: f32 = 0.592_704;
+pub(super) const THRESHOLD: f32 = 0.785_92;
 
 /// No bump is narrower than this, in cells, or it could fall between the cells.
 const NARROWEST: f64 = 1.8;
@@ -60,9 +60,7 @@ impl Field {
             let density = &mut self.density[cells.clone()];
             let values = &mut self.value[cells.clone()];
             let radii = &mut self.radius[cells];
-            for (column, ((density, sum), radii)) in
-                density.iter_mut().zip(values).zip(radii).enumerate()
-            {
+            for (column, ((density, sum), radii)) in density.iter_mut().zip(values).zip(radii).enumerate() {
                 let u = first + column as f32 * scale;
                 let near = (rest - u * u).max(0.0);
                 let bump = near * near * near;

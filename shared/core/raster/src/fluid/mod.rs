@@ -18,18 +18,14 @@ pub struct Liquid<'a> {
     pub palette: &'a [[u8; 3]],
     /// Opacity of its body, 0 to 1.
     pub opacity: f32,
+    /// First column, first row, last column + 1, last row + 1 of the part of the picture that may get wet.
+    pub window: Option<[usize; 4]>,
 }
 
 /// Blend the liquid that balls make onto the picture.
 ///
 /// `values`, one per ball, are mixed by nearness and choose the colour from the palette.
-pub fn draw_fluid(
-    canvas: &mut Canvas,
-    centers: &[[f64; 2]],
-    radii: &[f64],
-    values: &[f32],
-    liquid: Liquid,
-) {
+pub fn draw_fluid(canvas: &mut Canvas, centers: &[[f64; 2]], radii: &[f64], values: &[f32], liquid: Liquid) {
     if liquid.palette.is_empty() || canvas.width() == 0 || canvas.height() == 0 {
         return;
     }

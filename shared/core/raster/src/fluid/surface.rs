@@ -14,7 +14,7 @@ const LIGHT: [f32; 3] = [-0.371, -0.557, 0.743];
 const HALFWAY: [f32; 3] = [-0.199, -0.298, 0.933];
 
 /// How steep the surface looks. Chosen by eye.
-const STEEPNESS: f32 = 2.2;
+const STEEPNESS: f32 = 3.0;
 
 /// Cells with less than this are dry, and so are their pixels.
 const DRY: f32 = 0.02;
@@ -43,7 +43,10 @@ pub(super) fn draw(canvas: &mut Canvas, field: &Field, liquid: Liquid) {
         .iter()
         .map(|colour| colour.map(f32::from))
         .collect();
-    let mut brush = Brush::new(field.width, liquid.opacity);
+    let [first, top, last, bottom] = liquid.window.unwrap_or([0, 0, canvas.width(), canvas.height()]);
+    let columns = first.min(last)..last.min(canvas.width());
+    let lines = top..bottom.min(canvas.height());
+    let mut brush = Brush::new(field.width, columns, liquid.opacity);
     let mut rows = [Row::default(), Row::default(), Row::default()];
     light(&mut rows[1], field, MARGIN - 1, &palette);
     light(&mut rows[2], field, MARGIN, &palette);
@@ -51,9 +54,10 @@ pub(super) fn draw(canvas: &mut Canvas, field: &Field, liquid: Liquid) {
         rows.rotate_left(1);
         light(&mut rows[2], field, row + 1, &palette);
         let top = (row - MARGIN) * CELL;
-        let bottom = (top + CELL).min(canvas.height());
-        for (y, next) in (top..bottom).zip([&rows[0], &rows[2]]) {
-            brush.draw(canvas.row(y), &rows[1], next);
+        for (y, next) in (top..top + CELL).zip([&rows[0], &rows[2]]) {
+            if lines.contains(&y) {
+                brush.draw(canvas.row(y), &rows[1], next);
+            }
         }
     }
 }
@@ -62,14 +66,17 @@ pub(super) fn draw(canvas: &mut Canvas, field: &Field, liquid: Liquid) {
 struct Brush {
     depth: Vec<f32>,
     colour: Vec<f32>,
+    /// Columns that may get wet.
+    columns: Range<usize>,
     opacity: f32,
 }
 
 impl Brush {
-    fn new(width: usize, opacity: f32) -> Self {
+    fn new(width: usize, columns: Range<usize>, opacity: f32) -> Self {
         Self {
             depth: vec![-CUT; width],
             colour: vec![0.0; 3 * width],
+            columns,
             opacity,
         }
     }
@@ -96,16 +103,19 @@ impl Brush {
 
         let first = (wet.start + 1).max(MARGIN);
         let last = (wet.end - 1).min(self.depth.len() - MARGIN);
-        let start = (CELL * (first - MARGIN)).min(pixels.len());
-        for (pair, cell) in pixels[start..].chunks_mut(CELL).zip(first..last) {
+        for cell in first..last {
             let depth = [self.depth[cell - 1], self.depth[cell], self.depth[cell + 1]];
             if depth[0].max(depth[1]).max(depth[2]) <= -CUT {
                 continue;
             }
             let colour = &self.colour[3 * cell - 3..3 * cell + 6];
-            for (pixel, side) in pair.iter_mut().zip([0, 2]) {
-                let part =
-                    (NEAR * depth[1] + FAR * depth[side] + 0.5).clamp(0.0, 1.0) * self.opacity;
+            let column = CELL * (cell - MARGIN);
+            for (column, side) in [(column, 0), (column + 1, 2)] {
+                if !self.columns.contains(&column) {
+                    continue;
+                }
+                let pixel = &mut pixels[column];
+                let part = (NEAR * depth[1] + FAR * depth[side] + 0.5).clamp(0.0, 1.0) * self.opacity;
                 for (channel, byte) in pixel.iter_mut().enumerate() {
                     let new = NEAR * colour[3 + channel] + FAR * colour[3 * side + channel];
                     let old = f32::from(*byte);
@@ -164,10 +174,7 @@ fn light(lit: &mut Row, field: &Field, row: usize, palette: &[[f32; 3]]) {
         // The first byte of 2^23 + x is x rounded, and values stay within 0 and 1.
         let index = (values[cell] / here * last).clamp(0.0, last) + 8_388_608.0;
         let body = palette[(index.to_bits() & 0x007f_ffff) as usize];
-        for (channel, colour) in body
-            .into_iter()
-            .zip(&mut lit.colour[3 * cell..3 * cell + 3])
-        {
+        for (channel, colour) in body.into_iter().zip(&mut lit.colour[3 * cell..3 * cell + 3]) {
             *colour = (channel * factor + shine).min(255.0);
         }
     }
@@ -177,7 +184,7 @@ fn light(lit: &mut Row, field: &Field, row: usize, palette: &[[f32; 3]]) {
 #[inline]
 fn lights(slope_x: f32, slope_y: f32, radius: f32, density: f32) -> [f32; 2] {
     // The deeper inside, the flatter: a film with a rounded rim, not a heap of bumps.
-    let flatten = STEEPNESS * radius / (0.35 + density * density);
+    let flatten = STEEPNESS * radius / (0.3 + density * density * density);
     let (x, y) = (-slope_x * flatten, -slope_y * flatten);
     let z = 1.0 / (x * x + y * y + 1.0).sqrt();
     let (x, y) = (x * z, y * z);
@@ -189,7 +196,7 @@ fn lights(slope_x: f32, slope_y: f32, radius: f32, density: f32) -> [f32; 2] {
     let shine = shine * shine;
     // The rim of a drop shows less light from below.
     let factor = 0.42 + 0.78 * diffuse * (0.35 + 0.65 * z);
-    [factor, 120.0 * shine * (1.0 - z * z)]
+    [factor, 150.0 * shine * (1.0 - z * z)]
 }
 
 /// From the first to the last cell that is not dry, the outermost cells left out.
