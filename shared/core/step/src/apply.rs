@@ -46,7 +46,8 @@ fn input_takes_effect(state: &mut State, input: &Input) -> bool {
                 vector: Vec2::new(a, b),
                 strength: 0.0,
             };
-            hold_or_release(state, held, a == 0.0 && b == 0.0)
+            // Without a ball there is nothing to thrust.
+            state.own_ball(input.client).is_some() && hold_or_release(state, held, a == 0.0 && b == 0.0)
         }
         InputKind::Attract => {
             let held = Held {
