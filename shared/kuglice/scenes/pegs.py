@@ -10,11 +10,11 @@ from kuglice.scene import Gravity, Scene
 __all__ = ["pegs"]
 
 
-def pegs(n: int = 600, rows: int = 14, seed: int = 1) -> Scene:
+def pegs(n: int = 400, rows: int = 14, seed: int = 1) -> Scene:
     """n balls fall through rows of fixed pegs into bins."""
     columns, spacing = 24, 2.0
     width, bins, board = columns * spacing, 8.0, rows * 1.6
-    height = bins + board + 13.0
+    height = bins + board + 1.0 + n / 20.0
     middle = 0.5 * width
     return Scene(
         title="Pegs",
@@ -47,7 +47,7 @@ def pegs(n: int = 600, rows: int = 14, seed: int = 1) -> Scene:
                 radius=0.2,
                 seed=seed,
                 speed=0.5,
-                area=(middle - 12.0, bins + board + 1.0, middle + 12.0, height),
+                area=(middle - 4.0, bins + board + 1.0, middle + 4.0, height),
             ),
         ),
     )
