@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+import kuglice as kg
+
 Run = Callable[..., str]
 
 pytestmark = pytest.mark.timeout(900)
@@ -83,12 +85,18 @@ def test_all_rooms_come_from_the_installation_and_step_to_the_same_bits(
     assert answer["hash"] == json.loads(here)["hash"]
 
 
-def test_the_console_script_knows_the_commands_of_every_room(installation: Installation, run: Run) -> None:
+@pytest.mark.parametrize("command", ["scenes", "plan", "replay", "server", "client", "render", "demo"])
+def test_the_console_script_knows_the_commands_of_every_room(
+    installation: Installation, run: Run, command: str
+) -> None:
     script = installation.python.with_name("kuglice")
-    overview = run([script, "--help"], cwd=installation.python.parent)
-    for command in ("scenes", "server", "client", "demo", "render", "replay"):
-        assert command in overview
-    assert run([script, "scenes"], cwd=installation.python.parent)
+    assert f"kuglice {command}" in run([script, command, "--help"], cwd=installation.python.parent)
+
+
+def test_the_console_script_finds_the_built_in_scenes(installation: Installation, run: Run) -> None:
+    script = installation.python.with_name("kuglice")
+    table = json.loads(run([script, "scenes", "--json"], cwd=installation.python.parent))
+    assert {row["scene"] for row in table} == set(kg.scenes.TABLE)
 
 
 def test_types_are_installed(installation: Installation, run: Run) -> None:
