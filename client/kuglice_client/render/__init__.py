@@ -22,6 +22,7 @@ from kuglice_client.render.moment import HashState, Moment, between
 from kuglice_client.render.outputs import OUTPUTS, Output, open_output
 from kuglice_client.render.overlays import OVERLAYS
 from kuglice_client.render.renderer import Renderer
+from kuglice_client.render.size import parse_size
 from kuglice_client.render.styles import STYLES
 
 __all__ = [
@@ -35,4 +36,5 @@ __all__ = [
     "between",
     "film",
     "open_output",
+    "parse_size",
 ]

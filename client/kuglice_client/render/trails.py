@@ -14,9 +14,9 @@ from kuglice_client.render.stage import Pixels, Stage
 
 __all__ = ["Trails"]
 
-THICKNESS = 1.1
+THICKNESS = 0.9
 """In radii of the ball."""
-OPACITY = 110
+OPACITY = 150
 LEFT = 0.05
 """What is left of a trail at the end of its time."""
 

@@ -27,16 +27,9 @@ def background(camera: Camera, *, walls: bool = True) -> Pixels:
     pixels[:] = OUTSIDE
     left, top, right, bottom = camera.window()
     down = np.linspace(0.0, 1.0, max(1, bottom - top))[:, None]
-    pixels[top:bottom, left:right] = _dithered((1 - down) * TOP + down * BOTTOM, right - left)
+    shades = np.rint((1 - down) * TOP + down * BOTTOM)
+    pixels[top:bottom, left:right] = shades.astype(np.uint8)[:, None, :]
     # The line lies outside of the box: a ball at the wall touches it and is not drawn over it.
     sides = camera.rectangles(np.array([camera.box])) + np.array([-1, -1, 1, 1]) * (THICKNESS / 2)
     _core.draw_rectangles(pixels, sides, THICKNESS, np.array([WALL if walls else OPEN], dtype=np.uint8))
     return pixels
-
-
-def _dithered(rows: NDArray[np.float64], width: int) -> Pixels:
-    """(n, 3) colours of rows -> (n, width, 3) bytes, without the bands of a rounded dark gradient."""
-    x, y = np.meshgrid(np.arange(width), np.arange(len(rows)))
-    # Interleaved gradient noise (J. Jimenez, Next Generation Post Processing in Call of Duty, 2014).
-    noise = np.modf(52.9829189 * np.modf(0.06711056 * x + 0.00583715 * y)[0])[0]
-    return np.asarray(np.floor(rows[:, None, :] + noise[:, :, None]), dtype=np.uint8)

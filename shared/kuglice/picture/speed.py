@@ -36,9 +36,11 @@ PEG: Pixels = np.array([104, 114, 130], dtype=np.uint8)
 def reference_speed(scene: Scene) -> float:
     """The speed that gets the last colour. It depends on the scene alone, so all pictures of a scene agree.
 
-    v^2 = (2 rms)^2 + g h: in equilibrium all but e^-4 = 2 % of the balls stay below twice the root mean square of
-    the speeds, here those at the start, and sqrt(g h) is what a fall through half of the box adds. Where nothing
-    moves and nothing falls, a tenth of the box's diagonal per second.
+    v^2 = (2 rms)^2 + g h: in equilibrium all but e^-4 = 2 % of the balls stay below twice the root mean
+    square of the speeds, here those at the start, and sqrt(g h) is what a fall through half of the box adds;
+    where players steer, an eighth of the box at full thrust counts like a fall. Where one ball is much faster
+    than that, the geometric mean of both, so that it and what it hits can be told apart; where nothing moves
+    and nothing falls, a tenth of the box's diagonal per second.
     """
     left, bottom, right, top = scene.box
     moving = scene.balls.velocity[np.isfinite(scene.balls.mass)]
@@ -46,7 +48,13 @@ def reference_speed(scene: Scene) -> float:
     for force in scene.forces:
         if force.kind == "gravity":
             square += abs(force.x) * (right - left) + abs(force.y) * (top - bottom)
-    return float(np.sqrt(square)) or float(np.hypot(right - left, top - bottom)) / 10
+    if scene.players is not None and scene.limits.thrust:
+        square += scene.limits.thrust / scene.players.mass * min(right - left, top - bottom) / 4
+    speed = float(np.sqrt(square))
+    if not speed:
+        return float(np.hypot(right - left, top - bottom)) / 10
+    fastest = float(np.hypot(*moving.T).max(initial=0.0))
+    return max(speed, float(np.sqrt(speed * fastest)))
 
 
 def speed_values(velocity: Floats, reference: float) -> Floats:

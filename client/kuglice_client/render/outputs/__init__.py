@@ -9,7 +9,7 @@ from pathlib import Path
 from kuglice.errors import PictureError
 from kuglice_client.render.outputs.gif import Gif
 from kuglice_client.render.outputs.output import Encoder, Output
-from kuglice_client.render.outputs.png import open_png
+from kuglice_client.render.outputs.png import PictureFolder, open_png
 from kuglice_client.render.outputs.video import Mp4, WebM
 
 __all__ = ["OUTPUTS", "Encoder", "Output", "open_output"]
@@ -19,6 +19,7 @@ OUTPUTS: dict[str, Callable[[Path, tuple[int, int], float], Encoder]] = {
     ".webm": WebM,
     ".gif": Gif,
     ".png": open_png,
+    "": PictureFolder,
 }
 
 
@@ -26,14 +27,16 @@ def open_output(path: str | PathLike[str], *, size: tuple[int, int], fps: float,
     """Open a film or pictures for frames of `size` (width, height), `fps` frames per second.
 
     The suffix says the kind: `.mp4`, `.webm`, `.gif`, or `.png`: with a pattern like `frame-%05d.png` one
-    file per frame, counted from 0; without one, the last frame only. Missing folders are made, an existing
-    file is replaced. `depth` frames may wait for their encoding. Raises PictureError for what cannot be
-    opened as asked, and MissingExtraError without the extra `render`.
+    file per frame, counted from 0; without one, the last frame only. No suffix is a directory for one PNG per
+    frame. Missing directories are made, an existing file is replaced. `depth` frames may wait for their
+    encoding. Raises PictureError for what cannot be opened as asked, and MissingExtraError without the extra
+    `render`.
     """
     target = Path(path)
     kind = OUTPUTS.get(target.suffix.lower())
     if kind is None:
-        raise PictureError(f"output {target}: its suffix must be one of {', '.join(OUTPUTS)}")
+        kinds = ", ".join(suffix for suffix in OUTPUTS if suffix)
+        raise PictureError(f"output {target}: must be a directory, or its suffix one of {kinds}")
     if not 0 < fps <= 1000:
         raise PictureError(f"output {target}: {fps} frames per second, must be above 0 and at most 1000")
     try:

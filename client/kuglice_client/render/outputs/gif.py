@@ -1,14 +1,18 @@
-"""Animated GIF, with the best 256 colours of every frame."""
+"""Animated GIF."""
 
 from __future__ import annotations
 
 from fractions import Fraction
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kuglice.extras import extra
+
+if TYPE_CHECKING:
+    from av import VideoFrame
 
 __all__ = ["Gif"]
 
@@ -17,9 +21,12 @@ Pixels = NDArray[np.uint8]
 CENTISECOND = Fraction(1, 100)
 """Delays in a GIF are whole numbers of these."""
 
+KEPT = 100
+"""Centiseconds for which a palette is kept: choosing one takes longer than all the rest."""
+
 
 class Gif:
-    """One frame after the other goes through a palette of its own, so that nothing is kept in memory."""
+    """Every second takes the best 256 colours of its first frame."""
 
     def __init__(self, path: Path, size: tuple[int, int], fps: float) -> None:
         with extra("render"):
@@ -31,48 +38,61 @@ class Gif:
         self._stream.width, self._stream.height = size
         self._stream.pix_fmt = "pal8"
         self._stream.time_base = CENTISECOND
-        self._graph = Graph()
-        source = self._graph.add_buffer(
-            width=size[0], height=size[1], format=av.VideoFormat("rgb24"), time_base=CENTISECOND
+        self._palette: VideoFrame | None = None
+        self._expires = 0
+
+        picture = {"width": size[0], "height": size[1], "format": av.VideoFormat("rgb24")}
+        self._choose = Graph()
+        self._choose.link_nodes(
+            self._choose.add_buffer(**picture, time_base=CENTISECOND),
+            self._choose.add("palettegen", "stats_mode=single:reserve_transparent=1"),
+            self._choose.add("buffersink"),
+        ).configure()
+        self._apply = Graph()
+        self._pictures = self._apply.add_buffer(**picture, time_base=CENTISECOND)
+        self._palettes = self._apply.add_buffer(
+            width=16, height=16, format=av.VideoFormat("rgb32"), time_base=CENTISECOND
         )
-        split = self._graph.add("split")
-        generate = self._graph.add("palettegen", "stats_mode=single:reserve_transparent=0")
-        use = self._graph.add("paletteuse", "new=1:dither=bayer:bayer_scale=4:diff_mode=rectangle")
-        sink = self._graph.add("buffersink")
-        source.link_to(split)
-        split.link_to(generate, 0, 0)
-        split.link_to(use, 1, 0)
-        generate.link_to(use, 0, 1)
-        use.link_to(sink)
-        self._graph.configure()
+        use = self._apply.add("paletteuse", "new=1:dither=none")
+        self._pictures.link_to(use, 0, 0)
+        self._palettes.link_to(use, 0, 1)
+        use.link_to(self._apply.add("buffersink"))
+        self._apply.configure()
 
     def write(self, pixels: Pixels, number: int) -> None:
-        """Reduce a frame to its palette and write it."""
+        """Reduce a frame to its palette and write what changed."""
         import av  # noqa: PLC0415 - an extra
 
         frame = av.VideoFrame.from_ndarray(pixels, format="rgb24")
         frame.pts = round(number / self._rate / CENTISECOND)
         frame.time_base = CENTISECOND
-        self._graph.push(frame)
+        palette = self._palette
+        if palette is None or frame.pts >= self._expires:
+            self._choose.vpush(frame)
+            palette = self._palette = self._choose.vpull()
+            self._expires = frame.pts + KEPT
+        palette.pts, palette.time_base = frame.pts, CENTISECOND
+        self._pictures.push(frame)
+        self._palettes.push(palette)
         self._pull()
 
     def _pull(self) -> None:
-        import av  # noqa: PLC0415 - an extra
         from av.error import BlockingIOError as NothingYet  # noqa: PLC0415 - an extra
         from av.error import EOFError as End  # noqa: PLC0415 - an extra
 
         while True:
             try:
-                frame = self._graph.pull()
+                frame = self._apply.vpull()
             except (NothingYet, End):
                 return
-            assert isinstance(frame, av.VideoFrame), "nothing else goes in"
+            frame.time_base = CENTISECOND
             self._container.mux(self._stream.encode(frame))
 
     def close(self) -> None:
         """Write what the filters hold, and close the file."""
         try:
-            self._graph.push(None)
+            self._pictures.push(None)
+            self._palettes.push(None)
             self._pull()
             self._container.mux(self._stream.encode(None))
         finally:

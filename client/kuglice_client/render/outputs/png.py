@@ -13,7 +13,7 @@ from kuglice.extras import extra
 from kuglice.picture import encode_png
 from kuglice_client.render.outputs.output import Encoder
 
-__all__ = ["LastPicture", "PictureSequence", "open_png"]
+__all__ = ["LastPicture", "PictureFolder", "PictureSequence", "open_png"]
 
 Pixels = NDArray[np.uint8]
 
@@ -22,8 +22,6 @@ PATTERN = re.compile(r"%(0\d+)?d")
 
 def open_png(path: Path, size: tuple[int, int], fps: float) -> Encoder:
     """A sequence if the name has a number pattern (`%d`, `%05d`), otherwise the last frame alone."""
-    with extra("render"):
-        import PIL  # noqa: F401, PLC0415 - an extra; told now rather than at the first frame
     if "%" not in path.name:
         return LastPicture(path)
     if len(PATTERN.findall(path.name)) != 1 or path.name.count("%") != 1:
@@ -35,6 +33,8 @@ class PictureSequence:
     """One file per frame."""
 
     def __init__(self, path: Path) -> None:
+        with extra("render"):
+            import PIL  # noqa: F401, PLC0415 - an extra; told now rather than at the first frame
         self._path = path
 
     def write(self, pixels: Pixels, number: int) -> None:
@@ -45,10 +45,20 @@ class PictureSequence:
         """Nothing is left to do."""
 
 
+class PictureFolder(PictureSequence):
+    """A directory with one file per frame."""
+
+    def __init__(self, path: Path, size: tuple[int, int], fps: float) -> None:
+        path.mkdir(parents=True, exist_ok=True)
+        super().__init__(path / "frame-%05d.png")
+
+
 class LastPicture:
     """One file: the last frame."""
 
     def __init__(self, path: Path) -> None:
+        with extra("render"):
+            import PIL  # noqa: F401, PLC0415 - an extra; told now rather than at the end
         self._path = path
         self._last: Pixels | None = None
 
