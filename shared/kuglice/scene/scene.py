@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import inf
 from os import PathLike
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
 from kuglice import _core
 from kuglice.balls import Balls
@@ -18,11 +19,20 @@ from kuglice.scene.pins import ModelPins
 from kuglice.scene.players import PlayerRules
 from kuglice.scene.start import check_start
 from kuglice.schema.numbers import Box, Flag, Fraction, Positive
-from kuglice.schema.problems import raises, told
+from kuglice.schema.problems import Problem, raises, refusal, told
 
 __all__ = ["Scene"]
 
-Accuracy = Literal["visual", "faithful", "exact"] | Positive
+
+def _accuracy(value: object) -> object:
+    """One finding, where a union would report each of its members."""
+    number = isinstance(value, int | float) and not isinstance(value, bool) and 0 < value < inf
+    if value in ("visual", "faithful", "exact") or number:
+        return value
+    raise ValueError('must be "visual", "faithful", "exact", or a largest error in radii greater than 0')
+
+
+Accuracy = Annotated[Literal["visual", "faithful", "exact"] | float, BeforeValidator(_accuracy)]
 
 
 @raises(SceneError)
@@ -57,8 +67,12 @@ class Scene(BaseModel):
 
     @model_validator(mode="after")
     def _settle(self) -> Self:
-        if self.groups and not len(self.balls):
-            object.__setattr__(self, "balls", place(self.groups, self.box))
+        if self.groups:
+            placed = place(self.groups, self.box)
+            if len(self.balls) and self.balls != placed:
+                bound = "give balls or groups, not both: a group of layout listed holds single balls"
+                raise refusal("Scene", [Problem(("balls",), self.balls, bound)])
+            object.__setattr__(self, "balls", placed)
         check_start(self)
         return self
 

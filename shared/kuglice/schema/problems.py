@@ -99,6 +99,9 @@ def raises(raised: type[KugliceError]) -> Callable[[Schema], Schema]:
 
 def _sentence(details: ErrorDetails, keys: tuple[str, ...]) -> str:
     key, kind = details["loc"], details["type"]
+    if key and isinstance(key[0], int) and key[0] < len(keys):
+        # An argument given by position.
+        key = (keys[key[0]], *key[1:])
     if kind == "missing":
         return f"{_path(key)}: missing"
     if kind in ("extra_forbidden", "unexpected_keyword_argument"):
