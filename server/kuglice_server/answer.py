@@ -11,6 +11,7 @@ import zenoh
 from kuglice.errors import KugliceError, ProtocolError
 from kuglice.protocol import (
     About,
+    Declared,
     History,
     Keys,
     Message,
@@ -52,7 +53,7 @@ class Answers:
             (keys.status, self._answer_status),
             (keys.history, self._answer_history),
         ]
-        self.declared = tuple(
+        self.declared: tuple[Declared, ...] = tuple(
             session.declare_queryable(key, zenoh.handlers.Callback(self._guarded(key, handler)))
             for key, handler in handlers
         )
@@ -87,7 +88,7 @@ class Answers:
         payload = query.payload
         if payload is None:
             raise ProtocolError("history: a query needs a payload that says which ticks or which snapshot")
-        request: TickRange | SnapshotRequest = decode(payload.to_bytes(), TickRange, SnapshotRequest)
+        request = decode(payload.to_bytes(), TickRange, SnapshotRequest)
         if request.epoch != self._epoch:
             raise ProtocolError(f"epoch {request.epoch}: this server runs epoch {self._epoch}")
         if isinstance(request, TickRange):
@@ -101,7 +102,7 @@ class Answers:
                 hashes=Stretch.pack_hashes([entry.state_hash for entry in ticks]),
             )
             yield from split(encode(stretch), of="history", epoch=self._epoch, tick=ticks[0].tick)
-        else:
+        elif isinstance(request, SnapshotRequest):
             kept = self._history.snapshot(request.at)
             if kept is None:
                 raise ProtocolError(f"snapshot at or before {request.at}: not kept")

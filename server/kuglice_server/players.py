@@ -62,6 +62,15 @@ class Players:
             (player for player in self._by_name.values() if player.present), key=lambda one: one.number
         )
 
+    @property
+    def deserted(self) -> bool:
+        """Whether somebody was here and nobody is any more."""
+        return (
+            bool(self._by_name)
+            and not self._waiting
+            and not any(one.present for one in self._by_name.values())
+        )
+
     def find(self, name: str) -> Player | None:
         """The player of that name, if it is here."""
         player = self._by_name.get(name)

@@ -13,10 +13,11 @@ from typing import Any, Self
 
 import zenoh
 
-from kuglice import Scene, World, _core, __version__
+from kuglice import Scene, World, __version__, _core
 from kuglice.errors import ProtocolError
 from kuglice.protocol import (
     About,
+    Declared,
     Keys,
     Status,
     close_session,
@@ -124,16 +125,20 @@ class Server:
         answers = Answers(
             self._session, keys, epoch=self.epoch, about=self.about, status=self.status, history=self._history
         )
-        self._declared = (inputs, tokens, *answers.declared, *publisher.declared)
+        self._declared: tuple[Declared, ...] = (inputs, tokens, *answers.declared, *publisher.declared)
 
     def run(
         self,
         stop: threading.Event,
         *,
         seconds: float | None = None,
+        until_empty: bool = False,
         each_tick: Callable[[Server], None] | None = None,
     ) -> None:
-        """Tick until `stop`, or for that many seconds of the schedule; what is lost is logged once per second."""
+        """Tick until `stop`, for that many seconds of the schedule, or until the last client has left.
+
+        A slow-down is logged, once per second at most.
+        """
         self._schedule = Schedule(self.rate)
         ticks = None if seconds is None else round(seconds * self.rate)
         told_lost, told_at = 0.0, time.monotonic()
@@ -146,9 +151,16 @@ class Server:
             ticks = None if ticks is None else ticks - 1
             if each_tick is not None:
                 each_tick(self)
+            if until_empty and self._deserted():
+                log.info("the last client has left")
+                break
             if self._schedule.seconds_lost > told_lost and time.monotonic() - told_at > 1:
                 told_lost, told_at = self._schedule.seconds_lost, time.monotonic()
                 log.warning("too slow for %g ticks per second: %.2f s lost so far", self.rate, told_lost)
+
+    def _deserted(self) -> bool:
+        with self._lock:
+            return self._players.deserted
 
     def about(self) -> About:
         """What a client must know to join. Safe from any thread."""

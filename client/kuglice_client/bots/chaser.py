@@ -10,7 +10,7 @@ from kuglice_client.bots.sight import Sight
 __all__ = ["chaser"]
 
 LOOKAHEAD_SECONDS = 0.4
-BOX_CROSSING_SECONDS = 1.6
+BOX_CROSSING_SECONDS = 3.5
 
 
 def chaser(sight: Sight) -> Input | None:

@@ -10,7 +10,7 @@ from kuglice_client.bots.sight import Sight
 __all__ = ["drifter"]
 
 CELLS = 4
-BOX_CROSSING_SECONDS = 2.5
+BOX_CROSSING_SECONDS = 5.0
 
 
 def drifter(sight: Sight) -> Input | None:

@@ -11,7 +11,7 @@ from kuglice_client.bots.sight import Sight
 
 __all__ = ["orbiter"]
 
-ROUND_SECONDS = 4.0
+ROUND_SECONDS = 7.0
 SHARE_OF_BOX = 0.33
 
 

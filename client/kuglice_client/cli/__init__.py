@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import typer
 
+from kuglice_client.cli import client, render
+
 __all__ = ["register"]
 
 
 def register(app: typer.Typer) -> None:
     """Add them."""
-    from kuglice_client.cli import client, render
-
     client.register(app)
     render.register(app)

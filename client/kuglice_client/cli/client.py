@@ -6,15 +6,16 @@ import json
 import random
 import secrets
 import time
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
+from rich.status import Status
 
 from kuglice.cli.figures import print_figures
 from kuglice.cli.logs import STDERR, log_to_stderr
 from kuglice.cli.stop import stop_on_signals
-from kuglice.errors import KugliceError
 from kuglice_client.bots import BOTS
 from kuglice_client.client import Client, ClientSettings
 
@@ -32,6 +33,7 @@ def register(app: typer.Typer) -> None:
 
 
 def client(
+    *,
     connect: Annotated[
         list[str] | None, typer.Option(help="Endpoint of the server. [default: tcp/127.0.0.1:7447]")
     ] = None,
@@ -76,27 +78,24 @@ def client(
     """
     log_to_stderr()
     stop = stop_on_signals()
-    try:
-        settings = ClientSettings(
-            connect=tuple(connect or ("tcp/127.0.0.1:7447",)),
-            world=world,
-            name=name or (f"{bot}-{secrets.token_hex(3)}" if bot else None),
-            bot=bot,
-            wait=wait,
-            lose=(lambda _: random.random() < lose) if lose else None,
-        )
-        film = None
-        with Client(settings, stop) as playing:
-            if render is not None:
-                film = _film(playing, render, fps, size, style, overlay, trails, still_every)
-            with STDERR.status("playing") as line:
-                playing.run(seconds=seconds, fps=fps, each_frame=_shower(film, overlay, line))
-            summary = playing.summary()
-        if film is not None:
-            summary |= _finished(film)
-    except KugliceError as error:
-        STDERR.print(f"[red]kuglice client:[/] {error}", highlight=False)
-        raise typer.Exit(2) from error
+    settings = ClientSettings(
+        connect=tuple(connect or ("tcp/127.0.0.1:7447",)),
+        world=world,
+        name=name or (f"{bot}-{secrets.token_hex(3)}" if bot else None),
+        bot=bot,
+        wait=wait,
+        lose=(lambda _: random.random() < lose) if lose else None,
+    )
+    look = _Look(fps, _pixels(size), style, tuple(overlay or ("tick",)), trails, still_every)
+    film = None
+    with Client(settings, stop) as playing:
+        if render is not None:
+            film = _film(playing, render, look)
+        with STDERR.status("playing") as line:
+            playing.run(seconds=seconds, fps=fps, each_frame=_shower(film, look, line))
+        summary = playing.summary()
+    if film is not None:
+        summary |= _finished(film)
     if summary_json is not None:
         summary_json.parent.mkdir(parents=True, exist_ok=True)
         summary_json.write_text(json.dumps(summary, indent=2) + "\n")
@@ -105,44 +104,45 @@ def client(
         raise typer.Exit(1)
 
 
-def _film(
-    playing: Client,
-    path: Path,
-    fps: int,
-    size: str,
-    style: str,
-    overlay: list[str] | None,
-    trails: float,
-    still_every: float,
-) -> Film:
-    # Pillow and PyAV come with the extra `render`; everything else works without them.
-    from kuglice_client.filming import Film, FilmSettings
+class _Look(NamedTuple):
+    fps: int
+    size: tuple[int, int]
+    style: str
+    overlays: tuple[str, ...]
+    trails: float
+    still_every: float
 
-    width, cross, height = size.partition("x")
-    if not (cross and width.isdecimal() and height.isdecimal()):
-        raise KugliceError(f"size {size!r}: must look like 1280x720")
-    return Film(
-        playing.joined.scene,
-        FilmSettings(
-            path=path,
-            fps=fps,
-            size=(int(width), int(height)),
-            style=style,
-            overlays=tuple(overlay or ("tick",)),
-            trails=trails,
-            still_every=round(still_every * fps),
-            own=playing.joined.number,
-        ),
+
+def _pixels(size: str) -> tuple[int, int]:
+    width, _, height = size.partition("x")
+    if not (width.isdecimal() and height.isdecimal()):
+        raise typer.BadParameter(f"size {size!r}: must look like 1280x720")
+    return int(width), int(height)
+
+
+def _film(playing: Client, path: Path, look: _Look) -> Film:
+    from kuglice_client.filming import Film, FilmSettings  # noqa: PLC0415 - needs the extra `render`
+
+    settings = FilmSettings(
+        path=path,
+        fps=look.fps,
+        size=look.size,
+        style=look.style,
+        overlays=look.overlays,
+        trails=look.trails,
+        still_every=round(look.still_every * look.fps),
+        own=playing.joined.number,
     )
+    return Film(playing.joined.scene, settings)
 
 
-def _shower(film: Film | None, overlay: list[str] | None, line: Any) -> Any:
+def _shower(film: Film | None, look: _Look, line: Status) -> Callable[[Client, float], None]:
     told = time.monotonic()
 
     def show(playing: Client, alpha: float) -> None:
         nonlocal told
         if film is not None:
-            film.add(playing.moment(alpha, nodes="tree" in (overlay or ())))
+            film.add(playing.moment(alpha, nodes="tree" in look.overlays))
         if time.monotonic() - told >= 1:
             told = time.monotonic()
             checks = playing.reconciler

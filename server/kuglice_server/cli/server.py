@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import re
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from rich.status import Status
 
 from kuglice import scenes
 from kuglice.cli.figures import print_figures
 from kuglice.cli.logs import STDERR, log_to_stderr
 from kuglice.cli.stop import stop_on_signals
-from kuglice.errors import KugliceError
 from kuglice_server.server import Server, ServerSettings
 
 __all__ = ["register"]
@@ -26,6 +27,7 @@ def register(app: typer.Typer) -> None:
 
 def server(
     scene: Annotated[str, typer.Argument(help="A built-in scene ('gas', 'gas:n=2000') or a TOML file.")],
+    *,
     listen: Annotated[
         list[str] | None,
         typer.Option(help="Endpoint to listen on; may be repeated. [default: tcp/127.0.0.1:7447]"),
@@ -45,6 +47,9 @@ def server(
     seconds: Annotated[
         float | None, typer.Option(help="Stop after this long. [default: on SIGINT or SIGTERM]")
     ] = None,
+    until_empty: Annotated[
+        bool, typer.Option("--until-empty", help="Stop when the last client has left.")
+    ] = False,
     insecure: Annotated[
         bool, typer.Option("--insecure", help="Allow listening on addresses that others can reach.")
     ] = False,
@@ -58,27 +63,23 @@ def server(
     """
     log_to_stderr()
     stop = stop_on_signals()
-    try:
-        settings = ServerSettings(
-            world=world or _name_of(scene),
-            listen=tuple(listen or (() if connect else ("tcp/127.0.0.1:7447",))),
-            connect=tuple(connect or ()),
-            rate=rate,
-            snapshot_every=snapshot_every,
-            record=record,
-            insecure=insecure,
+    settings = ServerSettings(
+        world=world or _name_of(scene),
+        listen=tuple(listen or (() if connect else ("tcp/127.0.0.1:7447",))),
+        connect=tuple(connect or ()),
+        rate=rate,
+        snapshot_every=snapshot_every,
+        record=record,
+        insecure=insecure,
+    )
+    with Server(scenes.find(scene), settings) as running:
+        where = ", ".join((*settings.listen, *settings.connect))
+        STDERR.print(
+            f"world {settings.world} of {running.world.count:,} balls on {where}: {running.world.model}"
         )
-        with Server(scenes.find(scene), settings) as running:
-            where = ", ".join((*settings.listen, *settings.connect))
-            STDERR.print(
-                f"world [bold]{settings.world}[/] of {running.world.count:,} balls on {where}, {running.world.model}"
-            )
-            with STDERR.status("starting") as line:
-                running.run(stop, seconds=seconds, each_tick=_teller(line))
-            figures = _figures(running)
-    except KugliceError as error:
-        STDERR.print(f"[red]kuglice server:[/] {error}", highlight=False)
-        raise typer.Exit(2) from error
+        with STDERR.status("starting") as line:
+            running.run(stop, seconds=seconds, until_empty=until_empty, each_tick=_teller(line))
+        figures = _figures(running)
     print_figures(f"Server of {settings.world}", {"server": figures}, as_json=as_json)
 
 
@@ -87,7 +88,7 @@ def _name_of(scene: str) -> str:
     return re.sub(r"[^A-Za-z0-9_-]", "-", stem).strip("-_")[:32] or "world"
 
 
-def _teller(line: Any) -> Any:
+def _teller(line: Status) -> Callable[[Server], None]:
     told = time.monotonic()
 
     def tell(running: Server) -> None:

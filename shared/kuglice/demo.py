@@ -1,0 +1,217 @@
+"""The whole house at work: a real server and two real clients, each its own process, and a verdict.
+
+Server and clients are started by their commands, as a user would start them; nothing here imports them.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from kuglice.errors import KugliceError
+from kuglice.replay import Replay, Verification
+from kuglice.world import World
+
+__all__ = ["DemoOutcome", "DemoSettings", "play"]
+
+POLL_SECONDS = 0.05
+STOP_SECONDS = 5.0
+START_SECONDS = 20.0
+RECORDING = "game.kuglice"
+
+
+@dataclass(frozen=True)
+class DemoSettings:
+    """`bots`: one client each. `film`: without it nothing is drawn, which needs no extras."""
+
+    out: Path = Path("out/demo")
+    scene: str = "arena:players=4,balls=600"
+    bots: tuple[str, ...] = ("chaser", "orbiter")
+    seconds: float = 10.0
+    size: str = "960x540"
+    film: bool = True
+    patience: float = 120.0
+
+
+@dataclass(frozen=True)
+class DemoOutcome:
+    """What each process said at its end, and what running the recording again showed."""
+
+    server: dict[str, Any]
+    clients: dict[str, dict[str, Any]]
+    verification: Verification
+    recorded_hashes: dict[str, bool]
+    seconds: float
+
+    @property
+    def agreed(self) -> bool:
+        """Whether every client agreed with the server bit for bit, and the recording with both."""
+        return (
+            all(client["agreed"] for client in self.clients.values())
+            and all(self.recorded_hashes.values())
+            and self.verification.ok
+        )
+
+    def figures(self) -> dict[str, Any]:
+        """For summary.json."""
+        return {
+            "agreed": self.agreed,
+            "seconds": self.seconds,
+            "server": self.server,
+            "clients": self.clients,
+            "replay": {
+                "ticks": self.verification.ticks,
+                "hashes": self.verification.hashes,
+                "equal": self.verification.ok,
+                "clients_final_state_in_it": self.recorded_hashes,
+            },
+        }
+
+
+def play(settings: DemoSettings, progress: Callable[[float, str], None]) -> DemoOutcome:
+    """Run the demo; `progress` hears of seconds played and what is going on.
+
+    Raises KugliceError with the words of the process that failed, or if they are not done within `patience`.
+    """
+    began = time.monotonic()
+    out = settings.out
+    out.mkdir(parents=True, exist_ok=True)
+    endpoint = f"tcp/127.0.0.1:{_free_port()}"
+    processes: dict[str, _Process] = {}
+    try:
+        processes["server"] = _Process(out, "server", _server_arguments(settings, endpoint))
+        for bot in settings.bots:
+            processes[bot] = _Process(out, bot, _client_arguments(settings, endpoint, bot))
+        _wait(processes, settings, began, progress)
+        clients = {bot: json.loads((out / f"{bot}.json").read_text()) for bot in settings.bots}
+        server = json.loads(processes["server"].stdout())
+    finally:
+        for process in processes.values():
+            process.end()
+    progress(settings.seconds, "running the recording again")
+    verification, recorded = _verify(out / RECORDING, clients)
+    return DemoOutcome(server, clients, verification, recorded, time.monotonic() - began)
+
+
+def _server_arguments(settings: DemoSettings, endpoint: str) -> list[str]:
+    record = str(settings.out / RECORDING)
+    return ["server", settings.scene, "--listen", endpoint, "--record", record, "--until-empty", "--json"]
+
+
+def _client_arguments(settings: DemoSettings, endpoint: str, bot: str) -> list[str]:
+    out = settings.out
+    arguments = [
+        "client",
+        "--connect",
+        endpoint,
+        "--name",
+        bot,
+        "--bot",
+        bot,
+        "--seconds",
+        str(settings.seconds),
+    ]
+    arguments += ["--wait", str(START_SECONDS), "--summary-json", str(out / f"{bot}.json"), "--json"]
+    if settings.film:
+        still = settings.seconds / 4
+        arguments += [
+            "--render",
+            str(out / f"{bot}.mp4"),
+            "--size",
+            settings.size,
+            "--still-every",
+            str(still),
+        ]
+    return arguments
+
+
+class _Process:
+    """A command of this package in a process of its own; what it says goes to files, so no pipe can fill up."""
+
+    def __init__(self, out: Path, name: str, arguments: Sequence[str]) -> None:
+        self.name = name
+        self._log = out / f"{name}.log"
+        self._data = out / f"{name}.stdout.json"
+        with self._log.open("wb") as log, self._data.open("wb") as data:
+            self._process = subprocess.Popen(
+                [sys.executable, "-m", "kuglice", *arguments],
+                stdin=subprocess.DEVNULL,
+                stdout=data,
+                stderr=log,
+                env={**os.environ, "PYTHONUNBUFFERED": "1"},
+                # Ctrl-C is ours to hear; we then stop them in order.
+                start_new_session=True,
+            )
+
+    @property
+    def code(self) -> int | None:
+        return self._process.poll()
+
+    def stdout(self) -> str:
+        return self._data.read_text()
+
+    def words(self) -> str:
+        return "\n".join(self._log.read_text(errors="replace").strip().splitlines()[-12:])
+
+    def end(self) -> None:
+        if self._process.poll() is None:
+            self._process.send_signal(signal.SIGTERM)
+            try:
+                self._process.wait(STOP_SECONDS)
+            except subprocess.TimeoutExpired:
+                self._process.kill()
+                self._process.wait()
+        self._data.unlink(missing_ok=True)
+
+
+def _wait(
+    processes: dict[str, _Process],
+    settings: DemoSettings,
+    began: float,
+    progress: Callable[[float, str], None],
+) -> None:
+    while any(process.code is None for process in processes.values()):
+        for process in processes.values():
+            # A client ends with 1 if it disagreed with the server: that is an outcome, not a failure.
+            if process.code not in (None, 0, 1):
+                raise KugliceError(f"{process.name} failed with status {process.code}:\n{process.words()}")
+        if processes["server"].code not in (None, 0):
+            raise KugliceError(f"server failed:\n{processes['server'].words()}")
+        elapsed = time.monotonic() - began
+        if elapsed > settings.patience:
+            waiting = ", ".join(process.name for process in processes.values() if process.code is None)
+            raise KugliceError(f"{waiting}: not done after {settings.patience:g} s")
+        played = min(elapsed, settings.seconds)
+        progress(played, "playing" if elapsed < settings.seconds + 1 else "finishing the films")
+        time.sleep(POLL_SECONDS)
+
+
+def _verify(path: Path, clients: dict[str, dict[str, Any]]) -> tuple[Verification, dict[str, bool]]:
+    wanted = {client["final_tick"]: client["final_hash"] for client in clients.values()}
+    found: dict[int, str] = {}
+
+    def watch(world: World) -> None:
+        if world.tick in wanted:
+            found[world.tick] = f"{world.state_hash:016x}"
+
+    verification = Replay.load(path).verify(watch)
+    recorded = {
+        name: found.get(client["final_tick"]) == client["final_hash"] for name, client in clients.items()
+    }
+    return verification, recorded
+
+
+def _free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port: int = probe.getsockname()[1]
+        return port
