@@ -10,6 +10,7 @@ def event_world(start: Start, tick_rate: float, broadphase: str = "loose_quadtre
     """A world of the public package; tick_rate a power of two keeps tick n at exactly n / tick_rate."""
     scene = kg.Scene(
         box=start.box,
+        walls=start.walls,
         balls=kg.Balls(
             position=start.position, velocity=start.velocity, radius=start.radius, mass=start.mass
         ),

@@ -23,6 +23,7 @@ class Start:
     mass: Floats
     gravity: tuple[float, float] = (0.0, 0.0)
     restitution: float = 1.0
+    walls: bool = True
 
     @property
     def moving(self) -> int:
@@ -32,7 +33,7 @@ class Start:
     def oracle(self, bits: int) -> Oracle:
         """Ready to run from here."""
         return Oracle(
-            self.box,
+            self.box if self.walls else None,
             self.position,
             self.velocity,
             self.radius,
@@ -51,8 +52,8 @@ def square_box(radius: Floats, packing: float) -> tuple[float, float, float, flo
 
 def spread(random: np.random.Generator, radius: Floats, box: tuple[float, float, float, float]) -> Floats:
     """(n, 2) positions without an overlap: thrown at random, then pushed apart until nothing touches."""
-    low = np.array(box[:2]) + radius[:, None]
-    high = np.array(box[2:]) - radius[:, None]
+    low = np.array(box[:2]) + 1.01 * radius[:, None]
+    high = np.array(box[2:]) - 1.01 * radius[:, None]
     reach = 1.01 * (radius[:, None] + radius[None, :])
     position = random.uniform(low, high)
     for _ in range(100_000):

@@ -26,7 +26,7 @@ def nudged(start: Start) -> Oracle:
             for pair in zip(start.position, away, strict=True)
         ]
     return Oracle(
-        start.box,
+        start.box if start.walls else None,
         position,
         start.velocity,
         start.radius,

@@ -10,7 +10,7 @@ from stability.statistics.estimate import of_blocks
 
 COUNT = 8
 BLOCKS = 40
-SAMPLES = 500
+SAMPLES = 2500
 MASSES = {"equal": np.ones(COUNT), "unequal": np.geomspace(0.2, 5.0, COUNT)}
 
 
