@@ -5,9 +5,11 @@
 
 mod brute;
 mod discs;
+mod lanes;
+mod levels;
 mod loose_quadtree;
-mod morton;
 mod quadtree;
+mod relocated;
 
 pub use discs::{Discs, Reach};
 
@@ -66,7 +68,7 @@ pub static TABLE: [Kind; 3] = [
     },
     Kind {
         name: "loose_quadtree",
-        make: |_| Box::new(loose_quadtree::LooseQuadtree::default()),
+        make: |settings| Box::new(loose_quadtree::LooseQuadtree::new(settings)),
     },
 ];
 

@@ -1,0 +1,223 @@
+//! The levels of the loose quadtree: grids of cells, each twice as wide as those of the level before.
+//!
+//! Cells are numbered by rows, not along a Morton curve: three neighbours in a row are then one run of discs, which
+//! was measured to find pairs more than twice as fast. A level has an empty column on either side and an empty row on
+//! top, so that no cell lacks a neighbour.
+
+use std::ops::Range;
+
+use super::{Discs, Reach, slack};
+use crate::Vec2;
+
+/// Cells on a side at the finest level: few enough that rounding in a cell number stays far below the margin.
+const MOST_CELLS: f64 = 32768.0;
+/// How much wider than its discs a cell is, to make up for that rounding.
+const MARGIN: f64 = 1.0 + 1e-9;
+/// Cells per disc, at the most: more than balls at any packing that collide often can use.
+const CELLS_PER_DISC: f64 = 6.0;
+const MOST_LEVELS: usize = 16;
+
+/// One level.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Level {
+    origin: Vec2,
+    size: f64,
+    /// Cells per metre.
+    inverse: f64,
+    columns: u32,
+    rows: u32,
+    /// Numbers from a cell to the one above it.
+    pub(super) stride: usize,
+    /// The number of this level's first cell.
+    pub(super) first: usize,
+    /// Discs in it.
+    pub(super) population: u32,
+}
+
+impl Level {
+    fn new(origin: Vec2, extent: Vec2, size: f64, first: usize) -> Level {
+        let columns = (extent.x / size) as u32 + 1;
+        let rows = (extent.y / size) as u32 + 1;
+        let stride = columns as usize + 2;
+        Level {
+            origin,
+            size,
+            inverse: 1.0 / size,
+            columns,
+            rows,
+            stride,
+            first,
+            population: 0,
+        }
+    }
+
+    /// One cell for all that is wider than any other level's.
+    fn boundless(origin: Vec2, first: usize) -> Level {
+        Level {
+            origin,
+            size: f64::INFINITY,
+            inverse: 0.0,
+            columns: 1,
+            rows: 1,
+            stride: 3,
+            first,
+            population: 0,
+        }
+    }
+
+    /// The number behind this level's last cell.
+    pub(super) fn end(&self) -> usize {
+        self.first + (self.rows as usize + 1) * self.stride
+    }
+
+    #[inline]
+    fn column(&self, x: f64) -> u32 {
+        // The cast sends what is below 0 to 0; the minimum keeps what is beyond the last cell in it.
+        (((x - self.origin.x) * self.inverse) as u32).min(self.columns - 1)
+    }
+
+    #[inline]
+    fn row(&self, y: f64) -> u32 {
+        (((y - self.origin.y) * self.inverse) as u32).min(self.rows - 1)
+    }
+
+    #[inline]
+    fn cell(&self, column: u32, row: u32) -> usize {
+        self.first + row as usize * self.stride + column as usize + 1
+    }
+
+    /// The cell that holds a point.
+    #[inline]
+    pub(super) fn cell_at(&self, point: Vec2) -> u32 {
+        self.cell(self.column(point.x), self.row(point.y)) as u32
+    }
+
+    /// Whether discs of that reach fit the cells.
+    #[inline]
+    fn takes(&self, reach: f64) -> bool {
+        2.0 * reach * MARGIN <= self.size
+    }
+
+    /// The cells whose discs could meet a disc, row by row.
+    pub(super) fn runs(&self, center: Vec2, reach: f64) -> impl Iterator<Item = Range<usize>> + use<> {
+        let far = if self.size.is_finite() {
+            reach + slack(center, reach) + 0.5 * self.size
+        } else {
+            0.0
+        };
+        let (left, right) = (self.column(center.x - far), self.column(center.x + far));
+        let (bottom, top) = (self.row(center.y - far), self.row(center.y + far));
+        let level = *self;
+        (bottom..=top).map(move |row| level.cell(left, row)..level.cell(right, row) + 1)
+    }
+
+    /// The rectangle (left, bottom, right, top) of a cell.
+    pub(super) fn rectangle(&self, cell: usize) -> [f64; 4] {
+        if self.size.is_infinite() {
+            return [f64::NEG_INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::INFINITY];
+        }
+        let (row, column) = (
+            (cell - self.first) / self.stride,
+            (cell - self.first) % self.stride - 1,
+        );
+        let left = self.origin.x + column as f64 * self.size;
+        let bottom = self.origin.y + row as f64 * self.size;
+        [left, bottom, left + self.size, bottom + self.size]
+    }
+}
+
+/// All levels, the finest first.
+#[derive(Debug, Default)]
+pub(super) struct Levels {
+    all: Vec<Level>,
+}
+
+impl Levels {
+    pub(super) fn all(&self) -> &[Level] {
+        &self.all
+    }
+
+    pub(super) fn all_mut(&mut self) -> &mut [Level] {
+        &mut self.all
+    }
+
+    /// How many cells there are, borders included.
+    pub(super) fn cells(&self) -> usize {
+        self.all.last().map_or(0, Level::end)
+    }
+
+    /// The finest level that takes discs of that reach, if one does.
+    #[inline]
+    pub(super) fn find_mut(&mut self, reach: f64) -> Option<&mut Level> {
+        self.all.iter_mut().find(|level| level.takes(reach))
+    }
+
+    /// The same for a disc of the layout, which always has one.
+    #[inline]
+    pub(super) fn of_mut(&mut self, reach: f64) -> &mut Level {
+        let at = self
+            .all
+            .iter()
+            .position(|level| level.takes(reach))
+            .unwrap_or(self.all.len() - 1);
+        &mut self.all[at]
+    }
+
+    /// Lays the levels out for these discs: over the root, or over the discs alone if they fill little of it.
+    pub(super) fn lay_out(&mut self, discs: &Discs<'_>, root: [f64; 4]) {
+        self.all.clear();
+        let (least, most) = reaches(discs);
+        let most_cells = CELLS_PER_DISC * discs.len() as f64 + 16.0;
+        let [left, bottom, right, top] = root;
+        let mut origin = Vec2::new(left, bottom);
+        let mut extent = Vec2::new(right - left, top - bottom);
+        let finest = 2.0 * least * MARGIN;
+        if extent.x * extent.y > finest * finest * most_cells || extent.x.max(extent.y) > finest * most_cells
+        {
+            (origin, extent) = bounds(discs);
+        }
+        let longest = extent.x.max(extent.y);
+        let mut size = finest
+            .max((extent.x * extent.y / most_cells).sqrt())
+            .max(longest / most_cells)
+            .max(longest / MOST_CELLS)
+            .max(f64::MIN_POSITIVE);
+        loop {
+            let level = Level::new(origin, extent, size, self.cells());
+            self.all.push(level);
+            if level.takes(most) {
+                return;
+            }
+            if self.all.len() == MOST_LEVELS {
+                self.all.push(Level::boundless(origin, level.end()));
+                return;
+            }
+            size *= 2.0;
+        }
+    }
+}
+
+/// The least and the greatest reach.
+fn reaches(discs: &Discs<'_>) -> (f64, f64) {
+    match discs.reach {
+        Reach::Same(reach) => (reach, reach),
+        Reach::Each([]) => (1.0, 1.0),
+        Reach::Each(all) => all.iter().fold((f64::INFINITY, 0.0), |(least, most), &reach| {
+            (reach.min(least), reach.max(most))
+        }),
+    }
+}
+
+/// Origin and extent of the centres.
+fn bounds(discs: &Discs<'_>) -> (Vec2, Vec2) {
+    let Some(&start) = discs.center.first() else {
+        return (Vec2::ZERO, Vec2::ZERO);
+    };
+    let (low, high) = discs.center.iter().fold((start, start), |(low, high), center| {
+        (
+            Vec2::new(low.x.min(center.x), low.y.min(center.y)),
+            Vec2::new(high.x.max(center.x), high.y.max(center.y)),
+        )
+    });
+    (low, high - low)
+}
