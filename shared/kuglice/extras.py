@@ -9,7 +9,14 @@ from kuglice.errors import MissingExtraError
 
 __all__ = ["extra"]
 
-DISTRIBUTIONS = {"PIL": "Pillow", "av": "PyAV", "matplotlib": "matplotlib", "pymunk": "pymunk"}
+DISTRIBUTIONS = {
+    "PIL": "Pillow",
+    "av": "PyAV",
+    "matplotlib": "matplotlib",
+    "numba": "numba",
+    "pymunk": "pymunk",
+    "scipy": "scipy",
+}
 
 
 @contextmanager

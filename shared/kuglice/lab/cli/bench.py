@@ -1,0 +1,66 @@
+"""`kuglice bench`: ns per ball-step."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from kuglice.cli.rows import print_rows
+from kuglice.lab import bench as benches
+from kuglice.lab.cli.progress import progress
+from kuglice.lab.machine import this_machine
+
+__all__ = ["register"]
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command("bench")(bench)
+
+
+def bench(  # noqa: PLR0917 - typer makes options of them
+    peers: Annotated[
+        bool, typer.Option("--peers", help="Run all peers too; pymunk runs in gas 10,000 in any case.")
+    ] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="Leave the largest scenes out.")] = False,
+    repeats: Annotated[int, typer.Option(help="Rounds of every case.", min=1, max=1000)] = 5,
+    only: Annotated[
+        list[str] | None, typer.Option("--case", help="Only cases whose name contains this.")
+    ] = None,
+    out: Annotated[Path, typer.Option(help="Where bench.json and bench.csv go.")] = Path("out/bench"),
+    as_json: Annotated[bool, typer.Option("--json", help="The same figures as JSON.")] = False,
+) -> None:
+    """Measure what ball-steps, copies and rollbacks cost, with peers on the same initial state.
+
+    In every round all contenders of a case take their turn, so that they meet the same noise. The table gives
+    the minimum and the median of the rounds; `relative` compares minima with the first contender of the case.
+    """
+    results = benches.Results(this_machine())
+    chosen = [
+        case
+        for case in benches.cases(peers=peers, quick=quick, repeats=repeats)
+        if not only or any(part in case.name for part in only)
+    ]
+    if not chosen:
+        raise typer.BadParameter(f"no case is called like {', '.join(only or [])}", param_hint="--case")
+    with progress(len(chosen)) as note:
+        for case in chosen:
+            note(case.name)
+            results.rows += case.run()
+            results.left_out += [f"{case.name}: without {reason}" for reason in case.left_out]
+    written = benches.write(results, out)
+    if as_json:
+        print(json.dumps(results.to_message(), indent=2))
+    else:
+        rows = [{name: _shown(value) for name, value in row.items()} for row in results.rows]
+        print_rows(" | ".join(results.machine.lines()), rows, as_json=False)
+    for line in [*results.left_out, *(f"wrote {path}" for path in written)]:
+        print(line, file=sys.stderr)
+
+
+def _shown(value: object) -> object:
+    return float(f"{value:.3g}") if isinstance(value, float) else value

@@ -1,0 +1,69 @@
+"""What measured: machine, versions, date. A figure without them is hearsay."""
+
+from __future__ import annotations
+
+import os
+import platform
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+from kuglice import _core
+from kuglice.version import VERSION
+
+__all__ = ["Machine", "this_machine"]
+
+NAMED = ("numpy", "scipy", "numba", "pymunk")
+
+
+@dataclass(frozen=True)
+class Machine:
+    """Where and with what."""
+
+    processor: str
+    cores: int
+    system: str
+    versions: dict[str, str]
+    flags: str
+    """How the compiled step was built and run."""
+    date: str
+
+    def lines(self) -> list[str]:
+        """For the footer of a picture and the head of a CSV."""
+        listed = ", ".join(f"{name} {number}" for name, number in self.versions.items())
+        return [f"{self.processor}, {self.cores} cores, {self.system}", listed, f"{self.flags}; {self.date}"]
+
+    def to_message(self) -> dict[str, object]:
+        """Values that JSON knows."""
+        return dict(vars(self))
+
+
+def this_machine() -> Machine:
+    """The one that runs this."""
+    versions = {"kuglice": VERSION, "step": str(_core.STEP_VERSION), "python": platform.python_version()}
+    for name in NAMED:
+        try:
+            versions[name] = version(name)
+        except PackageNotFoundError:
+            continue
+    return Machine(
+        processor=_processor(),
+        cores=os.cpu_count() or 1,
+        system=f"{platform.system()} {platform.machine()}",
+        versions=versions,
+        flags=f"1 thread, f64, release build, RUSTFLAGS={os.environ.get('RUSTFLAGS') or 'none'}",
+        date=datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
+    )
+
+
+def _processor() -> str:
+    try:
+        text = Path("/proc/cpuinfo").read_text(encoding="utf-8")
+    except OSError:
+        return platform.processor() or platform.machine()
+    lines = [line.partition(":") for line in text.split("\n\n")[0].splitlines()]
+    facts = {name.strip(): value.strip() for name, _, value in lines}
+    name = facts.get("model name") or platform.processor() or platform.machine()
+    clock = facts.get("cpu MHz")
+    return f"{name} at {float(clock) / 1000:.1f} GHz" if clock and "GHz" not in name else name
