@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from os import PathLike
 
+from kuglice.errors import PictureError
 from kuglice.world import World
-from kuglice_client.render.moment import between
+from kuglice_client.render.moment import Moment, between
 from kuglice_client.render.outputs import open_output
 from kuglice_client.render.renderer import Renderer
 
@@ -31,22 +32,35 @@ def film(
     second. The entry point of the group `kuglice.renderers`. Raises PictureError and MissingExtraError,
     before the second state is asked for.
     """
+    if not 0 < speed <= 1e6:
+        raise PictureError(f"speed {speed}: must be above 0 and at most 1e6 seconds per second")
     renderer = None
     output = None
+    previous = None
     try:
         for world in worlds:
             if renderer is None or output is None:
                 renderer = Renderer(world.scene, size=size, style=style, overlays=overlays, trails=trails)
                 output = open_output(path, size=size, fps=fps)
-                previous = current = renderer.look(world)
-                start = current.time
-            else:
-                previous, current = current, renderer.look(world)
-            while (due := start + output.frames * speed / fps) <= current.time:
-                span = current.time - previous.time
-                alpha = 1.0 if span == 0 else (due - previous.time) / span
-                output.write(renderer.frame(between(previous, current, min(max(alpha, 0.0), 1.0))))
+                start, tick = world.time, 1 / world.scene.tick_rate
+            due = start + output.frames * speed / fps
+            if world.time < due - 1.5 * tick:
+                # No frame lies between this state and the next one, so nobody need look at it.
+                previous = None
+                continue
+            current = renderer.look(world)
+            while due <= current.time:
+                output.write(renderer.frame(_at(due, previous, current)))
+                due = start + output.frames * speed / fps
+            previous = current
     finally:
         if output is not None:
             output.close()
     return 0 if output is None else output.frames
+
+
+def _at(time: float, previous: Moment | None, current: Moment) -> Moment:
+    if previous is None or previous.time >= current.time:
+        return current
+    alpha = (time - previous.time) / (current.time - previous.time)
+    return between(previous, current, min(max(alpha, 0.0), 1.0))
