@@ -1,0 +1,85 @@
+"""The confirmed world steps through the stream in order, whatever order the stream comes in."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from kuglice.inputs import Kick, Thrust
+from kuglice_client.follow import Follower
+
+
+def played(authority, ticks: int) -> list:
+    for number in range(ticks):
+        inputs = [Thrust(client=1, sequence=number, x=10.0, y=number % 7)] if number % 3 == 0 else []
+        inputs += [Kick(client=2, sequence=number, vx=0.1, vy=0.0)] if number % 5 == 0 else []
+        authority.step(inputs)
+    return authority.ticks
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.randoms(use_true_random=False), st.integers(1, 6))
+def test_any_order_and_any_repetition_gives_the_same_states(authority, shuffler, repeat):
+    begin = authority.world.clone()
+    first = len(authority.ticks)
+    played(authority, 20)
+    messages = [authority.message(end, repeat) for end in range(first + 1, len(authority.ticks) + 1)]
+    messages += shuffler.sample(messages, 5)
+    shuffler.shuffle(messages)
+    follower = Follower(begin)
+    hashes = {}
+    for message in messages:
+        follower.take(message)
+        hashes.update({step.entry.tick: (step.state_hash, step.entry.state_hash) for step in follower.advance()})
+    assert list(hashes) == [entry.tick for entry in authority.ticks[first:]]
+    assert all(ours == theirs for ours, theirs in hashes.values())
+    assert follower.world.snapshot() == authority.world.snapshot()
+
+
+@pytest.mark.parametrize("lost", [1, 5, 6, 12])
+def test_repeats_bridge_what_they_can_and_the_rest_is_a_gap(authority, lost):
+    follower = Follower(authority.world.clone())
+    authority.step()
+    follower.take(authority.message(repeat=6))
+    assert len(list(follower.advance())) == 1
+    reached = follower.world.tick
+    played(authority, lost + 1)
+    follower.take(authority.message(repeat=6))
+    stepped = len(list(follower.advance()))
+    assert follower.missed_messages == lost
+    if lost <= 5:
+        assert (stepped, follower.gap) == (lost + 1, None)
+        assert follower.healed_by_repeats == lost
+    else:
+        assert (stepped, follower.gap) == (0, (reached, reached + lost + 1 - 6))
+        follower.take(authority.message(follower.gap[1], repeat=follower.gap[1] - reached), from_history=True)
+        assert len(list(follower.advance())) == lost + 1
+        assert follower.healed_by_history == lost - 5
+    assert follower.world.snapshot() == authority.world.snapshot()
+
+
+def test_an_older_state_is_brought_up_to_where_it_was(authority):
+    follower = Follower(authority.world.clone())
+    older = None
+    for _ in range(20):
+        authority.step([Thrust(client=1, sequence=9, x=20, y=5)])
+        follower.take(authority.message())
+        assert len(list(follower.advance())) == 1
+        if authority.world.tick == 12:
+            older = authority.world.clone()
+    follower.replace(older)
+    assert len(list(follower.advance())) == 10
+    assert follower.world.snapshot() == authority.world.snapshot()
+
+
+def test_a_newer_state_drops_what_is_behind_it(authority):
+    follower = Follower(authority.world.clone())
+    authority.step()
+    played(authority, 30)
+    follower.take(authority.message(repeat=3))
+    assert follower.gap is not None
+    follower.replace(authority.world.clone())
+    assert follower.gap is None
+    authority.step()
+    follower.take(authority.message())
+    assert [step.entry.tick for step in follower.advance()] == [authority.world.tick - 1]

@@ -1,0 +1,40 @@
+"""A scene file and a server for every test that wants one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from pathlib import Path
+
+import pytest
+from e2e.processes import Command, free_endpoint
+from server.small_arena import small_arena
+
+WORLD = "small"
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Path:
+    path = tmp_path / f"{WORLD}.toml"
+    small_arena(players=4).save(path)
+    return path
+
+
+@pytest.fixture
+def endpoint() -> str:
+    return free_endpoint()
+
+
+@pytest.fixture
+def start(tmp_path: Path) -> Iterator[Callable[..., Command]]:
+    """Start commands that are ended with the test."""
+    with ExitStack() as running:
+        yield lambda *arguments: running.enter_context(Command(tmp_path, *arguments))
+
+
+@pytest.fixture
+def server(start: Callable[..., Command], scene: Path, endpoint: str, tmp_path: Path) -> Command:
+    """Serves the small arena and records it; prints figures as JSON when it ends."""
+    return start(
+        "server", scene, "--listen", endpoint, "--record", tmp_path / "run.kuglice", "--snapshot-every", 20, "--json"
+    )

@@ -1,0 +1,57 @@
+"""A client that misses much, or goes wrong, comes back to the server's bits."""
+
+from __future__ import annotations
+
+import time
+
+from e2e.processes import until
+from e2e.verdict import assert_all_equal
+from kuglice.inputs import Kick
+from kuglice_client import Client, ClientSettings
+
+
+def playing(client: Client, condition) -> None:
+    def turned() -> bool:
+        client.turn(time.monotonic())
+        return condition()
+
+    until(turned)
+
+
+def test_a_long_silence_is_filled_from_history(server, endpoint, tmp_path):
+    """Sixty messages in a row are more than the repeats of the stream can bridge."""
+    settings = ClientSettings(connect=(endpoint,), name="ana", bot="chaser", lose=lambda tick: 40 <= tick % 200 < 100)
+    with Client(settings) as client:
+        playing(client, lambda: client.confirmed.tick > 260)
+        summary = client.summary()
+    server.signal(2)
+    server.figures()
+    assert summary["messages_thrown_away"] >= 60
+    assert summary["ticks_healed_by_history"] >= 54
+    assert summary["snapshots_taken"] == 0
+    assert_all_equal(tmp_path / "run.kuglice", [summary])
+
+
+def test_a_world_that_went_wrong_is_found_out_reported_and_replaced(server, endpoint):
+    with Client(ClientSettings(connect=(endpoint,), name="ana")) as client:
+        playing(client, lambda: client.confirmed.tick > 30)
+        # A bit that flips in memory, say: here, a kick that only this client's confirmed world gets.
+        tick = client.confirmed.tick
+        client.confirmed.step([Kick(ball=3, vx=1e-9, vy=0.0)])
+        client.follower.replace(client.confirmed)
+        wrong = client.reconciler
+        playing(client, lambda: wrong.hash_mismatches > 0)
+        assert wrong.wrong_since is not None
+        playing(client, lambda: wrong.wrong_since is None)
+        mismatches = wrong.hash_mismatches
+        reached = client.confirmed.tick
+        playing(client, lambda: client.confirmed.tick > reached + 60)
+        summary = client.summary()
+    assert wrong.hash_mismatches == mismatches, "once replaced, it stays equal"
+    assert not summary["agreed"], "a session that was wrong once does not claim otherwise"
+    assert summary["snapshots_taken"] >= 1
+    assert wrong.desyncs
+    assert wrong.desyncs[0].tick > tick
+    assert any("ball 3:" in line for line in wrong.desyncs[0].balls)
+    server.signal(2)
+    assert server.wait() == 0

@@ -1,0 +1,215 @@
+"""Every input has a defined answer: in time, late, early, twice, too many, not allowed, unreadable, from nobody."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from kuglice import World
+from kuglice.inputs import Attract, Input, Join, Kick, Leave, Remove, Spawn, Thrust, to_message
+from kuglice.protocol import ClientInputs, Keys, SentInput, encode
+from kuglice_server.intake import MESSAGES_PER_TICK, Intake
+from kuglice_server.players import Players
+from server.small_arena import small_arena
+
+EPOCH = 77
+HORIZON = 50
+KEYS = Keys("small")
+
+
+class Desk:
+    """An intake with one client, `ana`, and the world that it is for."""
+
+    def __init__(self, per_tick: int = 4) -> None:
+        scene = small_arena(per_tick=per_tick)
+        self.world = World(scene)
+        players = Players(scene)
+        self.counters: Counter[str] = Counter()
+        self.intake = Intake(scene, players, epoch=EPOCH, horizon=HORIZON, counters=self.counters)
+        players.arrive("ana")
+        self.world.step(players.authored(self.world))
+        self.player = players.find("ana")
+
+    def send(self, *wanted: tuple[int, int, Input], name: str = "ana", epoch: int = EPOCH) -> list:
+        """(sequence, tick, input) each, in one message; the outcomes that are news."""
+        sent = []
+        for sequence, tick, given in wanted:
+            act = to_message(given)
+            del act["client"], act["sequence"]
+            sent.append(SentInput(sequence=sequence, tick=tick, act=act))
+        return self.raw(encode(ClientInputs(epoch=epoch, inputs=sent)), name=name)
+
+    def raw(self, payload: bytes, name: str = "ana") -> list:
+        before = self.intake.acks(self.world.tick, repeat=1000)
+        self.intake.receive(KEYS.input(name), payload, world=self.world)
+        return [ack for ack in self.intake.acks(self.world.tick, repeat=1000) if ack not in before]
+
+    def step(self) -> list[Input]:
+        inputs = self.intake.due(self.world.tick)
+        self.world.step(inputs)
+        return inputs
+
+
+@pytest.fixture
+def desk():
+    return Desk()
+
+
+def test_in_time_it_acts_in_the_tick_it_asks_for(desk):
+    (ack,) = desk.send((1, desk.world.tick + 3, Thrust(x=5, y=0)))
+    assert (ack.client, ack.sequence, ack.tick, ack.early, ack.refused) == (1, 1, 4, 3, None)
+    assert [desk.step() for _ in range(3)] == [[], [], []]
+    assert desk.step() == [Thrust(client=1, sequence=1, x=5, y=0)]
+    assert desk.world.held == [(1, "thrust", 5.0, 0.0, 0.0)]
+
+
+def test_late_it_acts_in_the_next_tick_and_hears_how_late_it_was(desk):
+    for _ in range(9):
+        desk.step()
+    (ack,) = desk.send((1, 4, Thrust(x=5, y=0)))
+    assert (ack.tick, ack.early) == (10, -6)
+    assert len(desk.step()) == 1
+    assert desk.counters["late"] == 1
+
+
+def test_too_early_is_refused(desk):
+    (ack,) = desk.send((1, desk.world.tick + HORIZON + 1, Thrust(x=5, y=0)))
+    assert ack.tick is None
+    assert f"at most {HORIZON} ticks after" in ack.refused
+
+
+def test_twice_is_acknowledged_as_before_and_applied_once(desk):
+    first = desk.send((1, 2, Kick(vx=1, vy=0)))
+    assert desk.send((1, 2, Kick(vx=1, vy=0))) == []
+    assert desk.send((1, 9, Kick(vx=1, vy=0))) == []
+    applied = [desk.step() for _ in range(12)]
+    assert sum(len(inputs) for inputs in applied) == 1
+    desk.intake.acks(desk.world.tick + 5000, repeat=1)
+    assert desk.send((1, 2, Kick(vx=1, vy=0))) == first
+    assert desk.counters["duplicate"] == 3
+
+
+def test_a_sequence_number_that_was_skipped_comes_too_late(desk):
+    desk.send((5, 2, Thrust(x=1, y=0)))
+    (ack,) = desk.send((4, 2, Thrust(x=2, y=0)))
+    assert ack.tick is None
+    assert "sequence 4: 5 came before" in ack.refused
+
+
+@pytest.mark.parametrize(
+    ("given", "reason"),
+    [
+        (Thrust(x=51, y=0), "at most 50"),
+        (Attract(x=1, y=1, strength=21), "at most 20"),
+        (Kick(vx=0, vy=6), "at most 5"),
+        (Kick(ball=999, vx=0, vy=1), "no ball 999"),
+        (Remove(ball=999), "no ball 999"),
+        (Spawn(x=10, y=3.5, radius=0.6, mass=1), "at most 0.5"),
+        (Spawn(x=-10, y=3.5, radius=0.4, mass=1), "outside the box"),
+        (Join(x=1, y=1, radius=1, mass=1), "only the server says who joins and leaves"),
+        (Leave(), "only the server says who joins and leaves"),
+    ],
+)
+def test_what_the_scene_does_not_allow_is_refused_with_value_and_bound(desk, given, reason):
+    (ack,) = desk.send((1, 2, given))
+    assert ack.tick is None
+    assert reason in ack.refused
+    assert all(desk.step() == [] for _ in range(5))
+
+
+@pytest.mark.parametrize(
+    "act",
+    [
+        {},
+        {"kind": "dance"},
+        {"kind": "thrust"},
+        {"kind": "thrust", "x": "fast", "y": 0.0},
+        {"kind": "thrust", "x": float("nan"), "y": 0.0},
+        {"kind": "thrust", "x": float("inf"), "y": 0.0},
+        {"kind": "kick", "vx": 0.0, "vy": 0.0, "ball": -1},
+        {"kind": "remove", "ball": 2**64 - 1},
+    ],
+)
+def test_an_input_that_is_none_is_refused(desk, act):
+    message = ClientInputs(epoch=EPOCH, inputs=[SentInput(sequence=1, tick=2, act=act)])
+    (ack,) = desk.raw(encode(message))
+    assert ack.tick is None
+    assert ack.refused
+    assert all(desk.step() == [] for _ in range(5))
+
+
+def test_who_it_is_comes_from_the_key_not_from_what_it_says(desk):
+    message = ClientInputs(
+        epoch=EPOCH,
+        inputs=[SentInput(sequence=1, tick=2, act={"kind": "thrust", "x": 1.0, "y": 0.0, "client": 0})],
+    )
+    (ack,) = desk.raw(encode(message))
+    assert ack.client == 1
+    desk.step()
+    assert [one.client for one in desk.step()] == [1]
+
+
+def test_garbage_of_someone_who_is_here_is_answered(desk):
+    (ack,) = desk.raw(b"\x00garbage")
+    assert (ack.client, ack.sequence, ack.tick) == (1, None, None)
+    assert "not msgpack" in ack.refused
+    assert desk.counters["malformed"] == 1
+
+
+def test_from_nobody_who_is_here_it_is_counted(desk):
+    assert desk.send((1, 2, Thrust(x=1, y=0)), name="eve") == []
+    desk.intake.receive("kuglice/small/input/not a name", b"x", world=desk.world)
+    assert desk.counters["foreign"] == 2
+
+
+def test_of_another_epoch_it_is_counted(desk):
+    assert desk.send((1, 2, Thrust(x=1, y=0)), epoch=EPOCH - 1) == []
+    assert desk.counters["other epoch"] == 1
+    assert desk.player.sequence == 0
+
+
+def test_more_than_the_scene_allows_in_one_tick_waits_for_the_next_in_order(desk):
+    desk.send(*[(number, 1, Kick(vx=0.1, vy=0)) for number in range(1, 11)])
+    assert [[one.sequence for one in desk.step()] for _ in range(4)] == [[1, 2, 3, 4], [5, 6, 7, 8], [9, 10], []]
+
+
+def test_a_flood_is_cut_off_and_counted(desk):
+    for _ in range(MESSAGES_PER_TICK + 5):
+        desk.raw(b"x")
+    assert desk.counters["flooded"] == 5
+    desk.step()
+    desk.raw(b"x")
+    assert desk.counters["flooded"] == 5
+
+
+@given(
+    st.lists(st.tuples(st.integers(1, 30), st.integers(0, 40), st.integers(0, 3)), max_size=40),
+)
+def test_inputs_of_one_client_act_at_most_once_and_in_the_order_of_their_numbers(messages):
+    desk = Desk(per_tick=3)
+    applied: list[int] = []
+    told: dict[int, int | None] = {}
+    happened: dict[int, int] = {}
+    for sequence, tick, steps in messages:
+        for ack in desk.send((sequence, tick, Kick(vx=0.01, vy=0))):
+            told.setdefault(ack.sequence, ack.tick)
+        for _ in range(steps):
+            now = desk.world.tick
+            for one in desk.step():
+                applied.append(one.sequence)
+                happened[one.sequence] = now
+    for _ in range(100):
+        now = desk.world.tick
+        for one in desk.step():
+            applied.append(one.sequence)
+            happened[one.sequence] = now
+    assert applied == sorted(set(applied))
+    assert happened == {sequence: tick for sequence, tick in told.items() if tick is not None}
+
+
+def test_outcomes_are_repeated_for_a_few_ticks(desk):
+    desk.send((1, 2, Thrust(x=1, y=0)))
+    tick = desk.world.tick
+    assert [len(desk.intake.acks(tick + later, repeat=3)) for later in range(5)] == [1, 1, 1, 0, 0]
