@@ -21,8 +21,8 @@ __all__ = ["melt"]
 Floats = NDArray[np.float64]
 Area = tuple[float, float, float, float]
 
-MOST_SWEEPS = 100
-MOVES = 8_000_000
+MOST_SWEEPS = 50
+MOVES = 3_000_000
 """Disc moves in total: a million discs get few sweeps, and need few, because motion melts the rest."""
 STRIDE = 3
 """Cells between discs that move at once: two whole cells of 1.414 radii are more than a diameter."""
