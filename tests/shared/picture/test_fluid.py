@@ -81,6 +81,11 @@ def test_balls_outside_and_numbers_that_are_none_draw_nothing():
     assert not wet(floats((nan, 4), (-500, 4), (1e300, 1e300), (5, 5)), [5, 5, 5, -1]).any()
 
 
+def test_a_value_that_is_none_gets_some_colour():
+    palette = np.array([[0, 0, 200], [0, 0, 250]], dtype=np.uint8)
+    assert wet(floats((60, 45)), [20], palette=palette, value=[float("nan")])[45, 60, 2] > 60
+
+
 def test_a_palette_and_an_opacity_are_needed():
     with pytest.raises(ValueError, match="palette"):
         wet(floats((1, 1)), [5], palette=np.zeros((0, 3), dtype=np.uint8))

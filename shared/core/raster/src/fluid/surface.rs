@@ -33,6 +33,9 @@ struct Row {
     depth: Vec<f32>,
     /// Red, green and blue of every cell.
     colour: Vec<f32>,
+    /// What the light does to a cell: times, plus.
+    factor: Vec<f32>,
+    shine: Vec<f32>,
     /// The cells that are not dry.
     wet: Range<usize>,
 }
@@ -62,13 +65,30 @@ pub(super) fn draw(canvas: &mut Canvas, field: &Field, liquid: Liquid) {
     }
 }
 
-/// Rows between rows and cells between cells, kept so that a frame allocates once.
+/// Draws rows of pixels; it keeps its rows of numbers so that a frame allocates them once.
 struct Brush {
+    /// Between two rows of cells.
     depth: Vec<f32>,
     colour: Vec<f32>,
+    /// For the two pixels of each cell: how much of the pixel is wet, and its colour.
+    sides: [Side; 2],
     /// Columns that may get wet.
     columns: Range<usize>,
     opacity: f32,
+}
+
+struct Side {
+    part: Vec<f32>,
+    colour: Vec<f32>,
+}
+
+impl Side {
+    fn new(width: usize) -> Self {
+        Self {
+            part: vec![0.0; width],
+            colour: vec![0.0; 3 * width],
+        }
+    }
 }
 
 impl Brush {
@@ -76,6 +96,7 @@ impl Brush {
         Self {
             depth: vec![-CUT; width],
             colour: vec![0.0; 3 * width],
+            sides: [Side::new(width), Side::new(width)],
             columns,
             opacity,
         }
@@ -84,42 +105,38 @@ impl Brush {
     /// Draw the row of pixels that lies in the row of cells `here`, on the side of `next`.
     fn draw(&mut self, pixels: &mut [[u8; 3]], here: &Row, next: &Row) {
         let wet = hull(&here.wet, &next.wet);
-        // A pixel also looks at the cell beside its own.
-        let wet = wet.start.saturating_sub(1)..(wet.end + 1).min(self.depth.len());
-        if wet.len() < 3 {
+        if wet.is_empty() {
             return;
         }
-        mix(
-            &mut self.depth[wet.clone()],
-            &here.depth[wet.clone()],
-            &next.depth[wet.clone()],
-        );
-        let bytes = 3 * wet.start..3 * wet.end;
-        mix(
-            &mut self.colour[bytes.clone()],
-            &here.colour[bytes.clone()],
-            &next.colour[bytes],
-        );
+        // Beyond the wet cells lies at least one more on either side, at which a pixel also looks.
+        let cells = wet.start - 1..wet.end + 1;
+        let bytes = 3 * cells.start..3 * cells.end;
+        mix(&mut self.depth, &here.depth, &next.depth, cells.clone(), 0);
+        mix(&mut self.colour, &here.colour, &next.colour, bytes, 0);
 
-        let first = (wet.start + 1).max(MARGIN);
-        let last = (wet.end - 1).min(self.depth.len() - MARGIN);
-        for cell in first..last {
-            let depth = [self.depth[cell - 1], self.depth[cell], self.depth[cell + 1]];
-            if depth[0].max(depth[1]).max(depth[2]) <= -CUT {
+        let cells = wet.start.max(MARGIN)..wet.end.min(self.depth.len() - MARGIN);
+        for (side, offset) in self.sides.iter_mut().zip([-1, 1]) {
+            let bytes = 3 * cells.start..3 * cells.end;
+            mix(&mut side.part, &self.depth, &self.depth, cells.clone(), offset);
+            mix(&mut side.colour, &self.colour, &self.colour, bytes, 3 * offset);
+            for part in &mut side.part[cells.clone()] {
+                *part = (*part + 0.5).clamp(0.0, 1.0) * self.opacity;
+            }
+        }
+        let [left, right] = &self.sides;
+        for cell in cells {
+            if left.part[cell] + right.part[cell] == 0.0 {
                 continue;
             }
-            let colour = &self.colour[3 * cell - 3..3 * cell + 6];
             let column = CELL * (cell - MARGIN);
-            for (column, side) in [(column, 0), (column + 1, 2)] {
-                if !self.columns.contains(&column) {
-                    continue;
-                }
-                let pixel = &mut pixels[column];
-                let part = (NEAR * depth[1] + FAR * depth[side] + 0.5).clamp(0.0, 1.0) * self.opacity;
-                for (channel, byte) in pixel.iter_mut().enumerate() {
-                    let new = NEAR * colour[3 + channel] + FAR * colour[3 * side + channel];
-                    let old = f32::from(*byte);
-                    *byte = round(old + (new - old) * part);
+            for (column, side) in [(column, left), (column + 1, right)] {
+                if self.columns.contains(&column) {
+                    let part = side.part[cell];
+                    let colour = &side.colour[3 * cell..3 * cell + 3];
+                    for (byte, new) in pixels[column].iter_mut().zip(colour) {
+                        let old = f32::from(*byte);
+                        *byte = round(old + (new - old) * part);
+                    }
                 }
             }
         }
@@ -135,8 +152,11 @@ fn hull(one: &Range<usize>, two: &Range<usize>) -> Range<usize> {
     }
 }
 
-fn mix(mixed: &mut [f32], near: &[f32], far: &[f32]) {
-    for ((mixed, near), far) in mixed.iter_mut().zip(near).zip(far) {
+/// `mixed[k] = NEAR near[k] + FAR far[k + offset]` for k in the range.
+fn mix(mixed: &mut [f32], near: &[f32], far: &[f32], range: Range<usize>, offset: isize) {
+    let shifted = range.start.wrapping_add_signed(offset)..range.end.wrapping_add_signed(offset);
+    let numbers = near[range.clone()].iter().zip(&far[shifted]);
+    for (mixed, (near, far)) in mixed[range].iter_mut().zip(numbers) {
         *mixed = NEAR * near + FAR * far;
     }
 }
@@ -147,35 +167,43 @@ fn light(lit: &mut Row, field: &Field, row: usize, palette: &[[f32; 3]]) {
     lit.depth.clear();
     lit.depth.resize(width, -CUT);
     lit.colour.resize(3 * width, 0.0);
+    lit.factor.resize(width, 0.0);
+    lit.shine.resize(width, 0.0);
     let start = row * width;
-    let density = &field.density[start..start + width];
-    lit.wet = wet(density);
+    lit.wet = wet(&field.density[start..start + width]);
     if lit.wet.is_empty() {
         return;
     }
-    let above = &field.density[start - width..start];
-    let below = &field.density[start + width..start + 2 * width];
-    let (values, radii) = (
-        &field.value[start..start + width],
-        &field.radius[start..start + width],
-    );
-    let last = (palette.len() - 1) as f32;
-    for cell in lit.wet.clone() {
-        let here = density[cell].max(DRY);
-        let radius = radii[cell] / here;
-        let slope_x = 0.5 * (density[cell + 1] - density[cell - 1]);
+    // Each of these is a row of the same length, so that the loop needs no checks and runs over many cells at once.
+    let (first, count) = (start + lit.wet.start, lit.wet.len());
+    let here = &field.density[first..first + count];
+    let left = &field.density[first - 1..first - 1 + count];
+    let right = &field.density[first + 1..first + 1 + count];
+    let above = &field.density[first - width..first - width + count];
+    let below = &field.density[first + width..first + width + count];
+    let radii = &field.radius[first..first + count];
+    let depth = &mut lit.depth[lit.wet.clone()];
+    let factor = &mut lit.factor[lit.wet.clone()];
+    let shine = &mut lit.shine[lit.wet.clone()];
+    for cell in 0..count {
+        let density = here[cell].max(DRY);
+        let radius = radii[cell] / density;
+        let slope_x = 0.5 * (right[cell] - left[cell]);
         let slope_y = 0.5 * (below[cell] - above[cell]);
         let steep = (slope_x * slope_x + slope_y * slope_y).sqrt();
         // Where bumps meet the density is level: without a bound the edge there would be a blur.
         let per_pixel = steep.max(0.25 / radius.max(1.0)) / CELL as f32;
-        lit.depth[cell] = ((here - THRESHOLD) / per_pixel).clamp(-CUT, CUT);
+        depth[cell] = ((density - THRESHOLD) / per_pixel).clamp(-CUT, CUT);
+        [factor[cell], shine[cell]] = lights(slope_x, slope_y, radius, density);
+    }
 
-        let [factor, shine] = lights(slope_x, slope_y, radius, here);
-        // The first byte of 2^23 + x is x rounded, and values stay within 0 and 1.
-        let index = (values[cell] / here * last).clamp(0.0, last) + 8_388_608.0;
-        let body = palette[(index.to_bits() & 0x007f_ffff) as usize];
-        for (channel, colour) in body.into_iter().zip(&mut lit.colour[3 * cell..3 * cell + 3]) {
-            *colour = (channel * factor + shine).min(255.0);
+    let values = &field.value[first..first + count];
+    let last = palette.len() - 1;
+    let colours = lit.colour[3 * lit.wet.start..3 * lit.wet.end].chunks_exact_mut(3);
+    for (cell, colour) in colours.enumerate() {
+        let index = (values[cell] / here[cell].max(DRY) * last as f32 + 0.5) as usize;
+        for (channel, body) in colour.iter_mut().zip(palette[index.min(last)]) {
+            *channel = (body * factor[cell] + shine[cell]).min(255.0);
         }
     }
 }
