@@ -43,7 +43,10 @@ class Asked:
         )
 
     def poll(self) -> list[bytes] | None:
-        """All replies once the last one is there, None before. Raises JoinError if refused or not answered."""
+        """All replies once the last one is there, None before.
+
+        Raises JoinError if refused or not answered.
+        """
         while True:
             try:
                 reply = self._handler.try_recv()

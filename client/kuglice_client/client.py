@@ -1,4 +1,4 @@
-"""A headless client: joins, follows, predicts, acts, reconciles. One thread; Zenoh's own only fill its rings."""
+"""A headless client: joins, follows, predicts, acts, reconciles; one thread, and Zenoh's fill its rings."""
 
 from __future__ import annotations
 
@@ -18,12 +18,14 @@ from kuglice.inputs import Input
 from kuglice.protocol import (
     PART_BYTES,
     Assembly,
+    Declared,
     History,
     Keys,
     Part,
     SnapshotRequest,
     Tick,
     TickRange,
+    Whole,
     check_name,
     client_configuration,
     close_session,
@@ -49,6 +51,8 @@ __all__ = ["Client", "ClientSettings"]
 
 log = logging.getLogger(__name__)
 
+Samples = zenoh.Subscriber[zenoh.handlers.Handler[zenoh.Sample]]
+
 TICK_RING = 1024
 PREDICTED_SECONDS = 0.5
 BOT_SECONDS = 1 / 15
@@ -60,8 +64,8 @@ STALL_SECONDS = 2.0
 class ClientSettings:
     """`name`: who we are, None for a spectator. `bot`: an entry of BOTS that plays for us.
 
-    `wait`: seconds to keep trying to join. `lose`: called with the number of each tick message; those for which it says
-    True are thrown away on arrival, to see them heal.
+    `wait`: seconds to keep trying to join. `lose`: called with the number of each tick message; those for
+    which it says True are thrown away on arrival, to see them heal.
     """
 
     connect: tuple[str, ...] = ("tcp/127.0.0.1:7447",)
@@ -88,7 +92,7 @@ class Client:
         self.stop = stop if stop is not None else threading.Event()
         self.traffic = Traffic()
         self.totals = Totals()
-        self._declared: list[Any] = []
+        self._declared: list[Declared] = []
         deadline = time.monotonic() + settings.wait
         self._session = _connect(settings, deadline, self.stop)
         try:
@@ -133,7 +137,10 @@ class Client:
         self.prediction.act(self.outbox.add(given, tick), tick)
 
     def turn(self, now: float) -> float:
-        """Take in what came, predict up to now, send. Returns how far the drawn state is from one tick to the next."""
+        """Take in what came, predict up to now, send.
+
+        Returns how far the drawn state is from one tick to the next.
+        """
         self._receive(now)
         self._heal()
         target = self.clock.target(now)
@@ -150,7 +157,10 @@ class Client:
         fps: float | None = None,
         each_frame: Callable[[Client, float], None] | None = None,
     ) -> None:
-        """Play until `stop`, or for that long. `each_frame` gets the client and alpha, `fps` times per second."""
+        """Play until `stop`, or for that long.
+
+        `each_frame` gets the client and alpha, `fps` times per second.
+        """
         begin = time.monotonic()
         frames = 0
         while not self.stop.is_set():
@@ -164,7 +174,10 @@ class Client:
             self.stop.wait(IDLE_SECONDS)
 
     def summary(self) -> dict[str, Any]:
-        """What this session was like, as values for JSON. `agreed`: every hash and every snapshot was the server's."""
+        """What this session was like, as values for JSON.
+
+        `agreed`: every hash and every snapshot was the server's.
+        """
         seconds = time.monotonic() - self._began
         figures = self.totals.with_past(self._figures())
         rates = self.traffic.per_second(seconds)
@@ -215,9 +228,9 @@ class Client:
         }
 
     def moment(self, alpha: float, *, nodes: bool = False) -> Moment:
-        """What is to be seen, `alpha` of the way from the state before the predicted one to the predicted one."""
-        from kuglice_client.interpolation import interpolate
-        from kuglice_client.render.moment import HashState
+        """What is to be seen: `alpha` of the way from the last but one predicted state to the last."""
+        from kuglice_client.interpolation import interpolate  # noqa: PLC0415 - the extra `render`
+        from kuglice_client.render.moment import HashState  # noqa: PLC0415 - the extra `render`
 
         wrong = self.reconciler.wrong_since is not None
         state = HashState(self.confirmed.state_hash, self.confirmed.tick, "different" if wrong else "equal")
@@ -233,8 +246,8 @@ class Client:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def _subscribe(self, key: str, ring: int) -> Any:
-        subscriber: Any = self._session.declare_subscriber(key, zenoh.handlers.RingChannel(ring))
+    def _subscribe(self, key: str, ring: int) -> Samples:
+        subscriber = self._session.declare_subscriber(key, zenoh.handlers.RingChannel(ring))
         self._declared.append(subscriber)
         return subscriber
 
@@ -278,7 +291,7 @@ class Client:
         parts = len(joined.world.snapshot()) // PART_BYTES + 2
         if 3 * parts > self._snapshot_ring:
             # The ring must hold a whole snapshot and the begin of the next, or no snapshot is ever complete.
-            self._snapshots.undeclare()
+            self._snapshots.undeclare()  # type: ignore[no-untyped-call]
             self._declared.remove(self._snapshots)
             self._snapshot_ring = 3 * parts
             self._snapshots = self._subscribe(self._keys.snapshot, self._snapshot_ring)
@@ -374,7 +387,7 @@ class Client:
             self._asked_snapshot = True
             log.warning("%s", error)
 
-    def _take_snapshot(self, whole: Any) -> None:
+    def _take_snapshot(self, whole: Whole) -> None:
         if self.follower.gap is not None and whole.tick > self.confirmed.tick:
             self.reconciler.stranded(whole)
             self.totals.gaps_skipped += 1

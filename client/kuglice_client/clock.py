@@ -1,8 +1,8 @@
 """Which tick it is: where the stream is now, and how far ahead of it this client runs.
 
-The stream's phase is the earliest arrival seen lately (delay only ever adds), let slip slowly so that a server that
-slowed down is followed. The lead follows the server's own report of how early each input came. Neither jumps: the
-client's rate stays within 2 % of the server's, except after a long stall.
+The stream's phase is the earliest arrival seen lately (delay only ever adds), let slip slowly so that a
+server that slowed down is followed. The lead follows the server's own report of how early each input came.
+Neither jumps: the client's rate stays within 2 % of the server's, except after a long stall.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Rendering beside playing: moments go to a process of low priority that draws and encodes them.
 
-Drawing 600 balls and encoding the frame costs about as much as 300 ticks of the step. In the client's own process it
-would delay ticks, and on a machine that the server shares it would delay those too. So the frames lag behind the play
-as much as they must, in a queue with a bound, and are finished after it.
+Drawing 600 balls and encoding the frame costs as much as several hundred ticks of the step. In the client's own
+process it would delay ticks, and on a machine that the server shares it would delay those too. So the frames
+lag behind the play as much as they must, in a queue with a bound, and are finished after it.
 """
 
 from __future__ import annotations
@@ -12,15 +12,23 @@ import multiprocessing
 import os
 import queue
 import signal
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from kuglice import Scene
 from kuglice.errors import KugliceError
+from kuglice.picture import encode_png
+from kuglice_client.render import Renderer, open_output
 from kuglice_client.render.moment import Moment
 
 __all__ = ["Film", "FilmSettings"]
+
+if TYPE_CHECKING:
+    from multiprocessing.connection import Connection
+    from multiprocessing.queues import Queue
+
+    Moments = Queue[Moment | None]
 
 WAITING_BYTES = 256 << 20
 """Moments that wait may hold this much; later ones are left out, and counted."""
@@ -30,7 +38,10 @@ STEPS_ASIDE = 10
 
 @dataclass(frozen=True)
 class FilmSettings:
-    """How it looks and where it goes. `still_every`: frames from one PNG beside the film to the next, 0 for none."""
+    """How it looks and where it goes.
+
+    `still_every`: frames from one PNG beside the film to the next, 0 for none.
+    """
 
     path: Path
     fps: int = 30
@@ -39,7 +50,7 @@ class FilmSettings:
     overlays: tuple[str, ...] = ("tick",)
     trails: float = 0.0
     still_every: int = 0
-    own: int | None = field(default=None)
+    own: int | None = None
 
 
 class Film:
@@ -51,7 +62,7 @@ class Film:
         self.left_out = 0
         context = multiprocessing.get_context("spawn")
         most = max(64, WAITING_BYTES // (BYTES_PER_BALL * max(1, len(scene.balls))))
-        self._moments: Any = context.Queue(most)
+        self._moments: Moments = context.Queue(most)
         self._result, result = context.Pipe(duplex=False)
         self._process = context.Process(
             target=_draw,
@@ -73,11 +84,13 @@ class Film:
     @property
     def waiting(self) -> int:
         """Frames that are not drawn yet."""
-        size: int = self._moments.qsize()
-        return size
+        return self._moments.qsize()
 
     def close(self, timeout: float) -> int:
-        """Finish the film; returns the number of frames in it. Raises KugliceError if it failed or takes longer."""
+        """Finish the film; returns the number of frames in it.
+
+        Raises KugliceError if it failed or takes longer.
+        """
         with contextlib.suppress(queue.Full):
             self._moments.put(None, timeout=timeout)
         outcome: Any = f"not finished after {timeout:g} s"
@@ -94,7 +107,9 @@ class Film:
         raise KugliceError(f"film {self.settings.path}: {outcome}")
 
 
-def _draw(scene_message: dict[str, Any], settings: FilmSettings, moments: Any, result: Any) -> None:
+def _draw(
+    scene_message: dict[str, Any], settings: FilmSettings, moments: Moments, result: Connection
+) -> None:
     # Ctrl-C reaches the whole process group, but what was played so far should still become a film.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.nice(STEPS_ASIDE)
@@ -107,10 +122,7 @@ def _draw(scene_message: dict[str, Any], settings: FilmSettings, moments: Any, r
             pass
 
 
-def _film(scene: Scene, settings: FilmSettings, moments: Any) -> int:
-    from kuglice.picture import encode_png
-    from kuglice_client.render import Renderer, open_output
-
+def _film(scene: Scene, settings: FilmSettings, moments: Moments) -> int:
     renderer = Renderer(
         scene,
         size=settings.size,

@@ -23,7 +23,7 @@ class Confirmed(NamedTuple):
 
 
 class Follower:
-    """`world` is state(world.tick) as the server has it, unless something is broken; reconcile.py finds out."""
+    """`world` is the server's state(world.tick), unless something broke; reconcile.py finds out."""
 
     def __init__(self, world: World) -> None:
         self.world = world
@@ -56,7 +56,7 @@ class Follower:
 
     @property
     def gap(self) -> tuple[int, int] | None:
-        """Ticks [first, end) that neither the stream nor its repeats brought, if later ones are here already."""
+        """Ticks [first, end) that neither stream nor repeats brought, if later ones are here."""
         if not self._buffer or self.world.tick in self._buffer:
             return None
         return self.world.tick, min(self._buffer)

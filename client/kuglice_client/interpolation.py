@@ -13,7 +13,10 @@ __all__ = ["interpolate"]
 def interpolate(
     previous: World, current: World, alpha: float, hash_state: HashState, *, nodes: bool
 ) -> Moment:
-    """alpha * current + (1 - alpha) * previous. `nodes`: with the quadtree's nodes, for the overlay that shows them."""
+    """alpha * current + (1 - alpha) * previous.
+
+    `nodes`: with the quadtree's nodes, for the overlay that shows them.
+    """
     now = Moment(
         position=current.position,
         velocity=current.velocity,

@@ -1,7 +1,7 @@
 """Joining: find the world, learn its scene and model, get a number, restore the newest snapshot.
 
-The tick stream is subscribed to, and buffered, before any of this begins: whatever happens between the snapshot and
-the first buffered tick is in the server's history, and everything later in the buffer.
+The tick stream is subscribed to, and buffered, before any of this begins: whatever happens between the
+snapshot and the first buffered tick is in the server's history, and everything later in the buffer.
 """
 
 from __future__ import annotations
@@ -28,7 +28,10 @@ RETRY_SECONDS = 0.03
 
 @dataclass(frozen=True)
 class Joined:
-    """What came out of joining. `number` is None for a spectator; `sequence` is the last one the server saw of us."""
+    """What came out of joining.
+
+    `number` is None for a spectator; `sequence` is the last one the server saw of us.
+    """
 
     epoch: int
     about: About
@@ -65,17 +68,18 @@ def join(
 ) -> Joined:
     """Join as the client `name`, whose liveliness token is declared already, or as a spectator (None).
 
-    Raises JoinError at the deadline, when refused, or when this build would step to other bits than the server.
+    Raises JoinError at the deadline, when refused, or when this build would step to other bits than the
+    server.
     """
     while True:
         try:
             return _attempt(session, keys, name, traffic=traffic, deadline=deadline, stop=stop)
-        except _NotYet as error:
+        except _NotYetError as error:
             log.debug("not yet: %s", error)
             _pause(deadline, stop, why=str(error))
 
 
-class _NotYet(JoinError):
+class _NotYetError(JoinError):
     """A reason that time may heal."""
 
 
@@ -91,7 +95,7 @@ def _attempt(
     try:
         about = decode(Asked(session, keys.about, None, traffic=traffic).wait_whole(stop).data, About)
     except JoinError as error:
-        raise _NotYet(str(error)) from error
+        raise _NotYetError(str(error)) from error
     except ProtocolError as error:
         raise JoinError(f"{keys.about}: {error}") from error
     if about.step_version != _core.STEP_VERSION:
@@ -109,7 +113,7 @@ def _attempt(
         ).wait_whole(stop)
         round_trip = time.monotonic() - asked_at
     except JoinError as error:
-        raise _NotYet(str(error)) from error
+        raise _NotYetError(str(error)) from error
     try:
         scene = Scene.from_message(about.scene)
         model = Model.from_message(about.model)
@@ -132,7 +136,7 @@ def _number(
         try:
             status = decode(Asked(session, keys.status, None, traffic=traffic).wait(stop)[0], Status)
         except (JoinError, ProtocolError) as error:
-            raise _NotYet(str(error)) from error
+            raise _NotYetError(str(error)) from error
         mine = status.clients.get(name)
         if mine is not None and mine.refusal is not None:
             raise JoinError(f"client {name}: {mine.refusal}")

@@ -1,8 +1,8 @@
 """The predicted world: ahead of the confirmed one, so that own inputs act at once.
 
-Others' inputs are predicted too: what they hold, they go on holding. When the authoritative inputs of a tick equal the
-predicted ones, the states do as well, and nothing is computed again; otherwise the confirmed world is copied and run
-forward.
+Others' inputs are predicted too: what they hold, they go on holding. When the authoritative inputs of a tick
+equal the predicted ones, the states do as well, and nothing is computed again; otherwise the confirmed world
+is copied and run forward.
 """
 
 from __future__ import annotations
@@ -51,7 +51,10 @@ class Prediction:
         )
 
     def confirm(self, entry: StretchedTick) -> None:
-        """The authoritative inputs of a tick. Own ones that are neither in them nor answered yet wait for the next."""
+        """The authoritative inputs of a tick.
+
+        Own ones that are neither in them nor answered yet wait for the next.
+        """
         mine = self._own.pop(entry.tick, [])
         told = {entry.inputs[at : at + INPUT_BYTES] for at in range(0, len(entry.inputs), INPUT_BYTES)}
         left = [given for given in mine if pack([given]) not in told]

@@ -1,4 +1,4 @@
-"""Is the confirmed world the server's, bit for bit? Every tick by its hash, now and then by the whole state."""
+"""Is the confirmed world the server's? Every tick by its hash, now and then bit for bit."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ class Reconciler:
         return self.received(snapshot)
 
     def stranded(self, snapshot: Whole) -> None:
-        """Take a snapshot because nothing else leads on from here: the gap is longer than the server's history."""
+        """Take a snapshot because nothing else leads on: the gap is longer than the server's history."""
         self._take(snapshot, None)
 
     def _keep(self) -> None:

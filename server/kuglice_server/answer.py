@@ -1,4 +1,4 @@
-"""What the server says when asked: about, history, status. Runs on Zenoh's own threads, beside the tick loop."""
+"""What the server says when asked: about, history, status; on Zenoh's threads, beside the tick loop."""
 
 from __future__ import annotations
 
@@ -32,7 +32,10 @@ log = logging.getLogger(__name__)
 
 
 class Answers:
-    """Queryables of one world. `about` and `status` are called for fresh messages and must be safe to call from any thread."""
+    """Queryables of one world.
+
+    `about` and `status` are called for fresh messages and must be safe to call from any thread.
+    """
 
     def __init__(
         self,
@@ -69,7 +72,8 @@ class Answers:
                 except KugliceError as error:
                     query.reply_err(encode(Refusal(epoch=self._epoch, reason=str(error)[:2000])))
                 except Exception as error:
-                    # An asker must not be left waiting, nor the answering thread die, because of a bug of ours.
+                    # An asker must not be left waiting, nor the answering thread die, because of a bug of
+                    # ours.
                     log.exception("query on %s failed", key)
                     query.reply_err(
                         encode(Refusal(epoch=self._epoch, reason=f"internal error: {error}"[:2000]))

@@ -22,7 +22,7 @@ class KeptSnapshot(NamedTuple):
 
 
 class History:
-    """The last `span` ticks, and as many snapshots within them as fit into `snapshot_bytes` (at least the newest)."""
+    """The last `span` ticks, and the snapshots within them that fit into `snapshot_bytes`."""
 
     def __init__(self, *, span: int, snapshot_bytes: int = 64 << 20) -> None:
         self.span = span

@@ -1,4 +1,4 @@
-"""Inputs from clients: validated, scheduled for a tick, and acknowledged with that tick or the reason against it.
+"""Inputs from clients: validated, scheduled for a tick, acknowledged with that tick or the reason why not.
 
 Every input has a defined answer:
 
@@ -22,7 +22,7 @@ __all__ = ["Intake"]
 
 CLIENT_KINDS = frozenset({"spawn", "remove", "thrust", "attract", "kick"})
 MESSAGES_PER_TICK = 16
-"""Messages of one client that are read per tick; a client that loses some sends them again until acknowledged."""
+"""Messages of one client that are read per tick; what is lost is sent again until acknowledged."""
 MAX_ACKS = 256
 """Outcomes per tick message; a client that does not hear of one asks again."""
 MAX_REASON = 160
@@ -102,7 +102,7 @@ class Intake:
             one = from_message({**sent.act, "client": player.number, "sequence": sent.sequence})
             if one.kind not in CLIENT_KINDS:
                 raise InputError(
-                    f"{one.kind} {one.sequence} of client {one.client}: only the server says who joins and leaves"
+                    f"{one.kind} {one.sequence} of client {one.client}: only the server decides on that"
                 )
             check(one, self._scene, world)
             tick = self._tick_for(player, max(sent.tick, world.tick), world.tick)
@@ -139,7 +139,7 @@ class Intake:
         self._counters["duplicate"] += 1
         known = player.outcomes.get(sent.sequence)
         if known is None:
-            reason = f"sequence {sent.sequence}: {player.sequence} came before, and what became of it is not remembered"
+            reason = f"sequence {sent.sequence}: {player.sequence} came before; its outcome is not remembered"
             known = Ack(player.number, sent.sequence, None, early, reason)
         if known not in self._new_acks and not any(known in acks for _, acks in self._acks):
             self._new_acks.append(known)

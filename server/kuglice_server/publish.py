@@ -13,7 +13,7 @@ __all__ = ["Publisher"]
 
 
 class Publisher:
-    """Puts on the tick and snapshot keys; what a congested link cannot take is dropped, and heals at the client."""
+    """Puts ticks and snapshots; what a congested link cannot take is dropped, and heals at the client."""
 
     def __init__(self, session: zenoh.Session, keys: Keys, *, epoch: int, counters: Counter[str]) -> None:
         self._epoch = epoch

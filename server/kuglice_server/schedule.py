@@ -12,9 +12,9 @@ __all__ = ["Schedule"]
 class Schedule:
     """Ticks at `rate` per second of `clock` (seconds, monotonic).
 
-    A tick that runs late is caught up by the next ones, which then do not wait. More than `patience` seconds behind,
-    the rest is given up instead (a server that cannot keep up must not run ever further behind its schedule):
-    `seconds_lost` says how much, and the owner reports it.
+    A tick that runs late is caught up by the next ones, which then do not wait. More than `patience` seconds
+    behind, the rest is given up instead (a server that cannot keep up must not run ever further behind its
+    schedule): `seconds_lost` says how much, and the owner reports it.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""The authority over one world: assembles intake, tick loop, publishing and answering around one Zenoh session."""
+"""The authority over one world: intake, tick loop, publishing and answering around one Zenoh session."""
 
 from __future__ import annotations
 
@@ -47,8 +47,9 @@ WAITING_MESSAGES = 4096
 class ServerSettings:
     """How a world is served; none of it changes its bits.
 
-    `rate`: ticks per second of wall clock (None: the scene's). `snapshot_every`: ticks between published snapshots.
-    `insecure`: listen on addresses that others can reach, although there are no accounts and no encryption yet.
+    `rate`: ticks per second of wall clock (None: the scene's). `snapshot_every`: ticks between published
+    snapshots. `insecure`: listen on addresses that others can reach, although there are no accounts and no
+    encryption yet.
     """
 
     world: str
@@ -65,8 +66,8 @@ class ServerSettings:
         for endpoint in self.listen:
             if not is_loopback(endpoint) and not self.insecure:
                 raise ProtocolError(
-                    f"endpoint {endpoint!r}: others can reach it, and there are no accounts and no encryption yet; "
-                    "say --insecure if that is what you want"
+                    f"endpoint {endpoint!r}: others can reach it, and there are no accounts and no "
+                    "encryption yet; say --insecure if that is what you want"
                 )
         if self.snapshot_every < 1:
             raise ProtocolError(f"snapshot-every {self.snapshot_every}: must be at least 1 tick")

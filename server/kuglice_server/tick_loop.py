@@ -5,6 +5,8 @@ from __future__ import annotations
 import logging
 import threading
 from collections import Counter
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import zenoh
@@ -70,10 +72,10 @@ class TickLoop:
         if number % self._snapshot_every == 0:
             data = world.snapshot()
             self._history.add_snapshot(KeptSnapshot(number, data))
-            self._guarded(self._publisher.snapshot, number, data)
+            self._guarded(partial(self._publisher.snapshot, number, data))
         entry = StretchedTick(number, self._step(authored, inputs), world.state_hash)
         self._history.add_tick(entry)
-        self._guarded(self._publisher.tick, self._history.recent(REPEATED_TICKS), acks)
+        self._guarded(partial(self._publisher.tick, self._history.recent(REPEATED_TICKS), acks))
         if self._record is not None:
             self._record.add(entry)
 
@@ -101,7 +103,8 @@ class TickLoop:
         try:
             self._world.step(records)
         except InputError:
-            # Every input was checked when it came in; if the step refuses one all the same, the world goes on without.
+            # Every input was checked when it came in; if the step refuses one all the same, the world goes on
+            # without.
             log.exception(
                 "tick %d: the step refused its inputs, %d are left out", self._world.tick, len(inputs)
             )
@@ -110,9 +113,9 @@ class TickLoop:
             self._world.step(records)
         return records
 
-    def _guarded(self, publish: Any, *arguments: Any) -> None:
+    def _guarded(self, publish: Callable[[], None]) -> None:
         try:
-            publish(*arguments)
+            publish()
         except (zenoh.ZError, ProtocolError) as error:
             if not self._counters["unpublished"]:
                 log.error("tick %d cannot be published: %s", self._world.tick, error)

@@ -135,7 +135,7 @@ def _client_arguments(settings: DemoSettings, endpoint: str, bot: str) -> list[s
 
 
 class _Process:
-    """A command of this package in a process of its own; what it says goes to files, so no pipe can fill up."""
+    """A command in a process of its own; what it says goes to files, so no pipe can fill up."""
 
     def __init__(self, out: Path, name: str, arguments: Sequence[str]) -> None:
         self.name = name

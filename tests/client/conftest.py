@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+
 from kuglice import World
 from kuglice.inputs import Input, Join, pack
 from kuglice.protocol import Stretch, StretchedTick, Tick

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+
 from kuglice import World, scenes
 from kuglice.inputs import check, join
 from kuglice_client.bots import BOTS, Sight

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+
 from kuglice.inputs import Kick, Thrust
 from kuglice_client.follow import Follower
 
@@ -30,7 +31,9 @@ def test_any_order_and_any_repetition_gives_the_same_states(authority, shuffler,
     hashes = {}
     for message in messages:
         follower.take(message)
-        hashes.update({step.entry.tick: (step.state_hash, step.entry.state_hash) for step in follower.advance()})
+        hashes.update(
+            {step.entry.tick: (step.state_hash, step.entry.state_hash) for step in follower.advance()}
+        )
     assert list(hashes) == [entry.tick for entry in authority.ticks[first:]]
     assert all(ours == theirs for ours, theirs in hashes.values())
     assert follower.world.snapshot() == authority.world.snapshot()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+
 from kuglice.inputs import Remove, Spawn
 from kuglice_client.interpolation import interpolate
 from kuglice_client.render.moment import HashState

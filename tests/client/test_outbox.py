@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from hypothesis import given
 from hypothesis import strategies as st
+
 from kuglice.inputs import Thrust
 from kuglice.protocol import MAX_INPUTS, Ack
 from kuglice_client.outbox import MAX_PENDING, Outbox

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+
 from kuglice.inputs import Kick, Thrust
 from kuglice_client.prediction import Prediction
 

@@ -7,6 +7,7 @@ from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
+
 from e2e.processes import Command, free_endpoint
 from server.small_arena import small_arena
 
@@ -36,5 +37,13 @@ def start(tmp_path: Path) -> Iterator[Callable[..., Command]]:
 def server(start: Callable[..., Command], scene: Path, endpoint: str, tmp_path: Path) -> Command:
     """Serves the small arena and records it; prints figures as JSON when it ends."""
     return start(
-        "server", scene, "--listen", endpoint, "--record", tmp_path / "run.kuglice", "--snapshot-every", 20, "--json"
+        "server",
+        scene,
+        "--listen",
+        endpoint,
+        "--record",
+        tmp_path / "run.kuglice",
+        "--snapshot-every",
+        20,
+        "--json",
     )

@@ -6,6 +6,7 @@ import time
 from typing import Any, Self
 
 import zenoh
+
 from e2e.processes import until
 from kuglice.errors import ProtocolError
 from kuglice.inputs import Input, to_message
@@ -82,7 +83,9 @@ class RawClient:
     def raw(self, payload: bytes, name: str | None = None) -> None:
         self.put(self.keys.input(name or self.name), payload)
 
-    def send(self, *wanted: tuple[int, int, Input], epoch: int | None = None, name: str | None = None) -> None:
+    def send(
+        self, *wanted: tuple[int, int, Input], epoch: int | None = None, name: str | None = None
+    ) -> None:
         """(sequence, tick, input) each, in one message."""
         sent = []
         for sequence, tick, given in wanted:

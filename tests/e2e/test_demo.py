@@ -6,6 +6,7 @@ import json
 
 import av
 import pytest
+
 from kuglice.replay import Replay
 
 

@@ -6,6 +6,7 @@ import json
 import signal
 
 import pytest
+
 from e2e.processes import free_endpoint, until
 from e2e.verdict import assert_all_equal
 from kuglice.replay import Replay

@@ -20,7 +20,9 @@ def playing(client: Client, condition) -> None:
 
 def test_a_long_silence_is_filled_from_history(server, endpoint, tmp_path):
     """Sixty messages in a row are more than the repeats of the stream can bridge."""
-    settings = ClientSettings(connect=(endpoint,), name="ana", bot="chaser", lose=lambda tick: 40 <= tick % 200 < 100)
+    settings = ClientSettings(
+        connect=(endpoint,), name="ana", bot="chaser", lose=lambda tick: 40 <= tick % 200 < 100
+    )
     with Client(settings) as client:
         playing(client, lambda: client.confirmed.tick > 260)
         summary = client.summary()

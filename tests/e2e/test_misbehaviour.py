@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 
 import zenoh
+
 from e2e.processes import until
 from e2e.raw_client import RawClient
 from e2e.verdict import assert_all_equal
@@ -50,7 +51,7 @@ def test_late_early_duplicate_forbidden_and_foreign_inputs_have_their_answers(se
         ana.send((1, 2, Kick(vx=1.0, vy=0.0)), (2, ana.tick + 100_000, Thrust(x=1.0, y=0.0)))
         assert ana.answer(2).tick is None
         ana.send((3, ana.tick, Leave()))
-        assert "only the server says" in ana.answer(3).refused
+        assert "only the server decides" in ana.answer(3).refused
         ana.send((4, ana.tick, Kick(vx=100.0, vy=0.0)))
         assert "at most 5" in ana.answer(4).refused
         ana.send((1, 1, Kick(vx=1.0, vy=0.0)), name="bob")

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import pytest
+
 from e2e.processes import until
 from e2e.verdict import assert_all_equal
 
 
 def test_two_clients_and_a_server_agree_on_every_state(start, server, endpoint, tmp_path):
     players = [
-        start("client", "--connect", endpoint, "--bot", bot, "--seconds", 3, "--json") for bot in ("chaser", "herder")
+        start("client", "--connect", endpoint, "--bot", bot, "--seconds", 3, "--json")
+        for bot in ("chaser", "herder")
     ]
     figures = [player.figures() for player in players]
     server.signal(2)
@@ -39,7 +41,9 @@ def test_a_late_joiner_agrees_from_its_snapshot_on(start, server, endpoint, tmp_
 
 @pytest.mark.parametrize("share", [0.2, 0.7])
 def test_a_client_that_misses_messages_heals(start, server, endpoint, tmp_path, share):
-    player = start("client", "--connect", endpoint, "--bot", "orbiter", "--seconds", 3, "--lose", share, "--json")
+    player = start(
+        "client", "--connect", endpoint, "--bot", "orbiter", "--seconds", 3, "--lose", share, "--json"
+    )
     figures = player.figures()
     server.signal(2)
     server.figures()

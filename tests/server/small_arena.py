@@ -1,8 +1,9 @@
-"""A world that is quick to serve: a dozen balls, two places for players, every kind of input within bounds."""
+"""A world that is quick to serve: a dozen balls, two spawn points, every kind of input within bounds."""
 
 from __future__ import annotations
 
 import numpy as np
+
 from kuglice import (
     AttractForce,
     Balls,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from hypothesis import given
 from hypothesis import strategies as st
+
 from kuglice.protocol import StretchedTick
 from kuglice_server.history import History, KeptSnapshot
 
@@ -19,7 +20,9 @@ def filled(ticks: int, span: int) -> History:
 def test_a_range_is_answered_as_far_as_it_is_kept(ticks, span, first, length):
     known = range(max(0, ticks - span), ticks)
     answer = filled(ticks, span).ticks(first, first + length)
-    assert [entry.tick for entry in answer] == [tick for tick in range(first, first + length) if tick in known]
+    assert [entry.tick for entry in answer] == [
+        tick for tick in range(first, first + length) if tick in known
+    ]
     assert all(entry.inputs == b"%d" % entry.tick for entry in answer)
 
 

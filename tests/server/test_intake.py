@@ -1,4 +1,4 @@
-"""Every input has a defined answer: in time, late, early, twice, too many, not allowed, unreadable, from nobody."""
+"""Every input has a defined answer: late, early, twice, too many, not allowed, unreadable, foreign."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections import Counter
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from kuglice import World
 from kuglice.inputs import Attract, Input, Join, Kick, Leave, Remove, Spawn, Thrust, to_message
 from kuglice.protocol import ClientInputs, Keys, SentInput, encode
@@ -35,8 +36,8 @@ class Desk:
     def send(self, *wanted: tuple[int, int, Input], name: str = "ana", epoch: int = EPOCH) -> list:
         """(sequence, tick, input) each, in one message; the outcomes that are news."""
         sent = []
-        for sequence, tick, given in wanted:
-            act = to_message(given)
+        for sequence, tick, one in wanted:
+            act = to_message(one)
             del act["client"], act["sequence"]
             sent.append(SentInput(sequence=sequence, tick=tick, act=act))
         return self.raw(encode(ClientInputs(epoch=epoch, inputs=sent)), name=name)
@@ -108,8 +109,8 @@ def test_a_sequence_number_that_was_skipped_comes_too_late(desk):
         (Remove(ball=999), "no ball 999"),
         (Spawn(x=10, y=3.5, radius=0.6, mass=1), "at most 0.5"),
         (Spawn(x=-10, y=3.5, radius=0.4, mass=1), "outside the box"),
-        (Join(x=1, y=1, radius=1, mass=1), "only the server says who joins and leaves"),
-        (Leave(), "only the server says who joins and leaves"),
+        (Join(x=1, y=1, radius=1, mass=1), "only the server decides on that"),
+        (Leave(), "only the server decides on that"),
     ],
 )
 def test_what_the_scene_does_not_allow_is_refused_with_value_and_bound(desk, given, reason):
@@ -172,7 +173,12 @@ def test_of_another_epoch_it_is_counted(desk):
 
 def test_more_than_the_scene_allows_in_one_tick_waits_for_the_next_in_order(desk):
     desk.send(*[(number, 1, Kick(vx=0.1, vy=0)) for number in range(1, 11)])
-    assert [[one.sequence for one in desk.step()] for _ in range(4)] == [[1, 2, 3, 4], [5, 6, 7, 8], [9, 10], []]
+    assert [[one.sequence for one in desk.step()] for _ in range(4)] == [
+        [1, 2, 3, 4],
+        [5, 6, 7, 8],
+        [9, 10],
+        [],
+    ]
 
 
 def test_a_flood_is_cut_off_and_counted(desk):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+
 from kuglice import World
 from kuglice.inputs import Join, Leave
 from kuglice_server.players import Players

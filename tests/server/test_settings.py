@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+
 from kuglice.errors import ProtocolError
 from kuglice_server import ServerSettings
 

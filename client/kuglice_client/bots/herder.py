@@ -1,4 +1,4 @@
-"""Holds a point that attracts all balls and carries it through the box; lets go now and then, so that they scatter."""
+"""Carries a point that attracts all balls through the box; lets go now and then, so that they scatter."""
 
 from __future__ import annotations
 

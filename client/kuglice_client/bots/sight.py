@@ -19,7 +19,10 @@ Vector = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Sight:
-    """The predicted world, before the tick that the bot decides about. `own`: id of its ball, if it has one."""
+    """The predicted world, before the tick that the bot decides about.
+
+    `own`: id of its ball, if it has one.
+    """
 
     world: World
     own: int | None
@@ -65,7 +68,7 @@ class Sight:
         return np.flatnonzero(np.isin(self.ids, np.array(theirs, dtype=np.uint64))).tolist()
 
     def towards(self, velocity: Vector, *, seconds: float) -> Input | None:
-        """The thrust that would bring the own ball to `velocity` within about that time, as far as allowed."""
+        """The thrust that brings the own ball to `velocity` in about that time, as far as allowed."""
         limit = self.world.scene.limits.thrust
         if self.index is None or limit is None:
             return None

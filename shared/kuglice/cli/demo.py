@@ -91,6 +91,7 @@ def _verdict(outcome: DemoOutcome, out: Path) -> str:
     else:
         checked = sum(client["hashes_checked"] for client in outcome.clients.values())
         lines.append(
-            f"EQUAL: {' and '.join(outcome.clients)} agreed with the server bit for bit, {checked} states of {checked}"
+            f"EQUAL: {' and '.join(outcome.clients)} agreed with the server bit for bit,"
+            f" {checked} states of {checked}"
         )
     return "\n".join(lines)

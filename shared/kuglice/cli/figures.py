@@ -30,7 +30,7 @@ def print_figures(title: str, columns: Mapping[str, Mapping[str, Any]], *, as_js
     Console().print(table)
 
 
-def _shown(value: Any) -> str:
+def _shown(value: object) -> str:
     if isinstance(value, float):
         return f"{value:,.3g}" if abs(value) < 1000 else f"{value:,.0f}"
     if isinstance(value, bool):

@@ -21,7 +21,10 @@ _SHORT.maxstring = _SHORT.maxother = 80
 
 
 def encode(message: Message) -> bytes:
-    """A msgpack map: version `v`, kind, and the message's own fields. Raises ProtocolError if it is too large."""
+    """A msgpack map: version `v`, kind, and the message's own fields.
+
+    Raises ProtocolError if it is too large.
+    """
     body = {"v": PROTOCOL_VERSION, "kind": message.kind, **message.model_dump()}
     data: bytes = msgpack.packb(body)
     if len(data) > message.max_bytes:

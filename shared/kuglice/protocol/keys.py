@@ -20,7 +20,7 @@ def check_name(what: str, name: str) -> str:
     """`name` as it is, if it can be one chunk of a key; raises ProtocolError otherwise."""
     if not NAME.fullmatch(name):
         raise ProtocolError(
-            f"{what} {name[:64]!r}: must be 1 to 32 letters, digits, '-' or '_', and begin with a letter or digit"
+            f"{what} {name[:64]!r}: must be 1 to 32 letters, digits, '-' or '_', a letter or digit first"
         )
     return name
 

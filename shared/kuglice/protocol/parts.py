@@ -1,4 +1,4 @@
-"""Large things in numbered parts: one Zenoh batch each, since larger puts are dropped even on an idle link."""
+"""Large things in numbered parts of one batch each: larger puts are dropped even on an idle link."""
 
 from __future__ import annotations
 
@@ -38,7 +38,8 @@ class _Pile:
 
 
 class Assembly:
-    """Puts parts together again, in whatever order they come; incomplete piles beyond `piles` give way to newer ones.
+    """Puts parts together again, in whatever order they come; incomplete piles beyond `piles` give way to
+    newer ones.
 
     `max_bytes` bounds one whole.
     """
@@ -50,7 +51,10 @@ class Assembly:
         self.given_up = 0
 
     def add(self, part: Part) -> Whole | None:
-        """The whole, if this part was the last one missing. Raises ProtocolError for a part that does not belong."""
+        """The whole, if this part was the last one missing.
+
+        Raises ProtocolError for a part that does not belong.
+        """
         if part.size > self._max_bytes:
             raise ProtocolError(f"{part.of}: {part.size} bytes, at most {self._max_bytes} allowed")
         key = (part.of, part.epoch, part.tick)

@@ -1,4 +1,4 @@
-"""Zenoh sessions as Kuglice wants them: no scouting, explicit endpoints, no shared memory, closed in bounded time."""
+"""Zenoh sessions: no scouting, explicit endpoints, no shared memory, closed in bounded time."""
 
 from __future__ import annotations
 

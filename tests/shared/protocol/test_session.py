@@ -17,20 +17,24 @@ from kuglice.protocol import (
 
 
 @pytest.mark.parametrize(
-    "endpoint", ["tcp/127.0.0.1:7447", "tcp/127.8.9.10:1", "tcp/localhost:7447", "tcp/[::1]:7447", "udp/127.0.0.1:1"]
+    "endpoint",
+    ["tcp/127.0.0.1:7447", "tcp/127.8.9.10:1", "tcp/localhost:7447", "tcp/[::1]:7447", "udp/127.0.0.1:1"],
 )
 def test_loopback(endpoint):
     assert is_loopback(endpoint)
 
 
 @pytest.mark.parametrize(
-    "endpoint", ["tcp/0.0.0.0:7447", "tcp/[::]:7447", "tcp/192.168.1.5:7447", "tcp/example.org:7447", "tls/10.0.0.1:1"]
+    "endpoint",
+    ["tcp/0.0.0.0:7447", "tcp/[::]:7447", "tcp/192.168.1.5:7447", "tcp/example.org:7447", "tls/10.0.0.1:1"],
 )
 def test_reachable_by_others(endpoint):
     assert not is_loopback(endpoint)
 
 
-@pytest.mark.parametrize("endpoint", ["", "tcp", "127.0.0.1:7447", "tcp/127.0.0.1", "tcp/127.0.0.1:x", "tcp/h:99999"])
+@pytest.mark.parametrize(
+    "endpoint", ["", "tcp", "127.0.0.1:7447", "tcp/127.0.0.1", "tcp/127.0.0.1:x", "tcp/h:99999"]
+)
 def test_no_endpoint(endpoint):
     with pytest.raises(ProtocolError, match="endpoint"):
         is_loopback(endpoint)

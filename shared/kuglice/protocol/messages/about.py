@@ -14,7 +14,8 @@ __all__ = ["About"]
 class About(Message):
     """Scene and model as their own modules put them into messages; clients never plan for themselves.
 
-    `rate` is in ticks per second of wall clock; `step_version` changes when some state would step to other bits.
+    `rate` is in ticks per second of wall clock; `step_version` changes when some state would step to other
+    bits.
     """
 
     kind: ClassVar[str] = "about"

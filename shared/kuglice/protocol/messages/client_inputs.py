@@ -14,7 +14,10 @@ MAX_INPUTS = 64
 
 
 class SentInput(BaseModel):
-    """One input, meant for `tick`. `act` is the input as kuglice.inputs.to_message has it, without its client."""
+    """One input, meant for `tick`.
+
+    `act` is the input as kuglice.inputs.to_message has it, without its client.
+    """
 
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
 

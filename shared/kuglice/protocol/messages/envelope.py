@@ -16,7 +16,10 @@ TickNumber = Annotated[int, Field(ge=0, lt=2**62)]
 
 
 class Message(BaseModel):
-    """A map on the wire. `epoch` is the run of the server that it belongs to: another epoch, another history."""
+    """A map on the wire.
+
+    `epoch` is the run of the server that it belongs to: another epoch, another history.
+    """
 
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
 

@@ -1,4 +1,7 @@
-"""What is asked on the history key. The epoch is the one the asker lives in: a restarted server refuses it."""
+"""What is asked on the history key.
+
+The epoch is the one the asker lives in: a restarted server refuses it.
+"""
 
 from __future__ import annotations
 

@@ -17,9 +17,9 @@ Reason = Annotated[str, Field(max_length=400)]
 class Ack(NamedTuple):
     """What became of an input.
 
-    `tick` is the one it acts in, None if it was refused, and then `refused` says why. `early` is how many ticks
-    before its turn it came (negative: too late for the tick it asked for). `sequence` is None for a message that
-    could not be read at all.
+    `tick` is the one it acts in, None if it was refused, and then `refused` says why. `early` is how many
+    ticks before its turn it came (negative: too late for the tick it asked for). `sequence` is None for a
+    message that could not be read at all.
     """
 
     client: int
