@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from kuglice import _core
-from kuglice.errors import PlanError
+from kuglice.errors import ModelError, PlanError
 from kuglice.model import Model
 from kuglice.scene import Scene
 
@@ -32,7 +32,7 @@ def plan(scene: Scene) -> Model:
     demand = LEVELS.get(scene.accuracy, 0.0) if isinstance(scene.accuracy, str) else scene.accuracy
     pins = scene.model
     contacts, why_contacts = _contacts(demand, pins.contacts)
-    integrator, why_integrator = _integrator(scene, demand)
+    integrator, why_integrator = _paired(contacts, *_integrator(scene, demand))
     substeps, why_substeps = _substeps(scene, contacts)
     broadphase, why_broadphase = _broadphase(scene)
     chosen = {
@@ -79,6 +79,22 @@ def _integrator(scene: Scene, demand: float) -> tuple[str, str]:
     return "symplectic_euler", f"one evaluation of the forces ({varying}), enough for a visual accuracy."
 
 
+def _paired(contacts: str, integrator: str, why: str) -> tuple[str, str]:
+    """The integrator that is wanted, or the first that these contacts can be paired with."""
+    for candidate in (integrator, *_core.INTEGRATORS):
+        try:
+            _core.Model(integrator=candidate, contacts=contacts, broadphase="brute")
+        except ModelError:
+            continue
+        if candidate == integrator:
+            return integrator, why
+        return (
+            candidate,
+            f"contacts {contacts!r} are defined for its path between collisions, not for {integrator}.",
+        )
+    return integrator, why
+
+
 def _contacts(demand: float, pinned: str | None) -> tuple[str, str]:
     if pinned is not None:
         return pinned, ""
@@ -99,8 +115,8 @@ def _contacts(demand: float, pinned: str | None) -> tuple[str, str]:
 def _substeps(scene: Scene, contacts: str) -> tuple[int, str]:
     """As many as keep balls from moving farther than the smallest radius between two tests."""
     movable = ~np.isinf(scene.balls.mass)
-    if contacts != "overlap":
-        return 1, f"contacts {contacts!r} miss no collision inside a tick."
+    if contacts == "event":
+        return 1, "contacts 'event' miss no collision inside a tick."
     if not movable.any():
         return 1, "no ball moves."
     smallest = float(scene.balls.radius.min())
