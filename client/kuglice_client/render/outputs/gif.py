@@ -41,15 +41,18 @@ class Gif:
         self._palette: VideoFrame | None = None
         self._expires = 0
 
-        picture = {"width": size[0], "height": size[1], "format": av.VideoFormat("rgb24")}
+        width, height = size
+        colours = av.VideoFormat("rgb24")
         self._choose = Graph()
         self._choose.link_nodes(
-            self._choose.add_buffer(**picture, time_base=CENTISECOND),
+            self._choose.add_buffer(width=width, height=height, format=colours, time_base=CENTISECOND),
             self._choose.add("palettegen", "stats_mode=single:reserve_transparent=1"),
             self._choose.add("buffersink"),
         ).configure()
         self._apply = Graph()
-        self._pictures = self._apply.add_buffer(**picture, time_base=CENTISECOND)
+        self._pictures = self._apply.add_buffer(
+            width=width, height=height, format=colours, time_base=CENTISECOND
+        )
         self._palettes = self._apply.add_buffer(
             width=16, height=16, format=av.VideoFormat("rgb32"), time_base=CENTISECOND
         )
