@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from kuglice import _core
 from kuglice.errors import ModelError, PlanError
 from kuglice.model import Model
 from kuglice.scene import Scene
+from kuglice.travel import longest_travel
 
 __all__ = ["plan"]
 
@@ -113,35 +112,16 @@ def _contacts(demand: float, pinned: str | None) -> tuple[str, str]:
 
 
 def _substeps(scene: Scene, contacts: str) -> tuple[int, str]:
-    """As many as keep balls from moving farther than the smallest radius between two tests."""
-    movable = ~np.isinf(scene.balls.mass)
+    """As many as keep balls from moving farther than a radius between two tests."""
     if contacts == "event":
         return 1, "contacts 'event' miss no collision inside a tick."
-    if not movable.any():
-        return 1, "no ball moves."
-    smallest = float(scene.balls.radius.min())
-    speed = _highest_speed(scene)
-    travel = speed / scene.tick_rate
-    needed = max(1, math.ceil(travel / smallest))
+    who, speed, share = longest_travel(scene)
+    needed = max(1, math.ceil(share))
+    moved = f"{who} of {speed:.3g} per second moves {share:.2g} radii in a tick"
     if needed > MOST_SUBSTEPS:
-        return MOST_SUBSTEPS, (
-            f"{needed} would keep balls of {speed:.3g} per second from passing through the smallest,"
-            f" {MOST_SUBSTEPS} is the most that is planned; a higher tick_rate helps."
-        )
-    moved = f"{travel / smallest:.2g} of the smallest radius"
-    return needed, f"at {speed:.3g} per second, a ball moves {moved} in a tick."
-
-
-def _highest_speed(scene: Scene) -> float:
-    """Of the fastest ball at the start, falling through the whole box."""
-    movable = ~np.isinf(scene.balls.mass)
-    velocity = scene.balls.velocity[movable]
-    squared = float((velocity[:, 0] * velocity[:, 0] + velocity[:, 1] * velocity[:, 1]).max())
-    left, bottom, right, top = scene.box
-    for force in scene.forces:
-        if force.kind == "gravity":
-            squared += 2.0 * (abs(force.x) * (right - left) + abs(force.y) * (top - bottom))
-    return math.sqrt(squared)
+        most = f"{MOST_SUBSTEPS} is the most that is planned; a higher tick_rate helps"
+        return MOST_SUBSTEPS, f"{moved}, and may pass through another; {most}."
+    return needed, f"{moved}, and should not move more than one between two tests."
 
 
 def _broadphase(scene: Scene) -> tuple[str, str]:

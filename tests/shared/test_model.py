@@ -80,6 +80,15 @@ def test_a_fall_through_the_box_counts_as_speed():
     assert kg.plan(scene(balls=small, box=(0, 0, 20, 1000), forces=[kg.Gravity(0, -10)])).substeps > 10
 
 
+def test_what_players_may_do_counts_as_speed():
+    slow = scene(players=kg.PlayerRules(radius=1, mass=1, spawn_points=[(3, 8)]), forces=[kg.ThrustForce()])
+    fast = slow.model_copy(update={"limits": kg.InputLimits(thrust=5000.0)})
+    assert kg.plan(slow).substeps == 1
+    assert kg.plan(fast).substeps > 1
+    kicked = scene(limits=kg.InputLimits(kick=300.0))
+    assert kg.plan(kicked).substeps > 1
+
+
 def test_pins_win_and_are_said():
     pinned = scene(model=kg.ModelPins(integrator="rk4", broadphase="quadtree", substeps=4, smallest_node=0.5))
     model = kg.plan(pinned)
