@@ -45,11 +45,12 @@ impl Contacts for EventDriven {
 impl EventDriven {
     fn begin(&mut self, substep: &mut Substep<'_>) {
         let balls = &mut *substep.balls;
+        let (dt, elastic) = (substep.dt, substep.rules.restitution() == 1.0);
         match substep.field {
             Field::None(_) => self
                 .paths
-                .begin(balls, substep.dt, Motion::Straight, |_| Vec2::ZERO),
-            Field::Constant(field) => self.paths.begin(balls, substep.dt, Motion::Curved, |_| field.0),
+                .begin(balls, dt, Motion::Straight, elastic, |_| Vec2::ZERO),
+            Field::Constant(field) => self.paths.begin(balls, dt, Motion::Curved, elastic, |_| field.0),
             Field::Sum(field) => {
                 // Constant for all but fixed balls: still exact, by the slower roots.
                 let motion = if field.is_constant() {
@@ -58,7 +59,7 @@ impl EventDriven {
                     Motion::Kicked
                 };
                 self.paths
-                    .begin(balls, substep.dt, motion, |body| field.at(substep.time, &body));
+                    .begin(balls, dt, motion, elastic, |body| field.at(substep.time, &body));
             }
         }
         if self.paths.motion == Motion::Kicked {
@@ -81,6 +82,7 @@ impl EventDriven {
         substep.broadphase.build(&discs);
         substep.broadphase.pairs(&discs, &mut self.pairs);
         for &(first, second) in &self.pairs {
+            self.paths.note_touch(balls, first as usize, second as usize);
             if let Some(time) = predict::pair(&self.paths, balls, first as usize, second as usize) {
                 self.queue
                     .push(Event::new(time, first, Partner::ball(second), &self.paths.hits));

@@ -29,8 +29,13 @@ pub(super) struct Paths {
     pub(super) hits: Vec<u32>,
     /// Along the path if curved, in the kicks if kicked; less what resting contacts have taken. Unused if straight.
     pub(super) acceleration: Vec<Vec2>,
-    /// The first kick's acceleration, untouched. Only if kicked.
+    /// The same as it was at the start. Unused if straight.
     pub(super) kicks: Vec<Vec2>,
+    /// Balls that have another so near at the start that both could meet at the speed which one substep's
+    /// acceleration gives. All false at restitution 1, where nobody asks.
+    pub(super) touched: Vec<bool>,
+    /// How far apart a pair may be to count as touching.
+    margin: f64,
     /// Balls that rest on something, which bears what they bear.
     pub(super) supported: Vec<bool>,
     /// Velocities that balls get back at the end of the substep: see [`super::contact`].
@@ -46,6 +51,7 @@ impl Paths {
         balls: &Balls,
         length: f64,
         motion: Motion,
+        elastic: bool,
         acceleration: impl Fn(Body) -> Vec2,
     ) {
         let count = balls.len();
@@ -59,6 +65,9 @@ impl Paths {
         self.kicks.clear();
         self.supported.clear();
         self.deferred.clear();
+        self.touched.clear();
+        self.touched.resize(count, false);
+        self.margin = 0.0;
         if motion == Motion::Straight {
             return;
         }
@@ -72,8 +81,31 @@ impl Paths {
                 velocity,
             })
         }));
-        if motion == Motion::Kicked {
-            self.kicks.extend_from_slice(&self.acceleration);
+        self.kicks.extend_from_slice(&self.acceleration);
+        if !elastic {
+            self.margin = (0..count).fold(0.0, |most: f64, index| most.max(self.gain(index))) * length;
+        }
+    }
+
+    /// The speed that a ball's acceleration gains in the substep.
+    #[inline]
+    pub(super) fn gain(&self, index: usize) -> f64 {
+        if self.motion == Motion::Straight {
+            0.0
+        } else {
+            self.kicks[index].length() * self.length
+        }
+    }
+
+    /// Notes which of two balls, at the start of the substep, touch.
+    pub(super) fn note_touch(&mut self, balls: &Balls, first: usize, second: usize) {
+        if self.margin == 0.0 {
+            return;
+        }
+        let near = balls.radius[first] + balls.radius[second] + self.margin;
+        if (balls.position[first] - balls.position[second]).square() < near * near {
+            self.touched[first] = true;
+            self.touched[second] = true;
         }
     }
 
@@ -118,7 +150,7 @@ impl Paths {
 
     /// Discs around all paths.
     pub(super) fn sweep(&mut self, balls: &Balls) {
-        let (length, motion) = (self.length, self.motion);
+        let (length, motion, margin) = (self.length, self.motion, 0.5 * self.margin);
         self.center.clear();
         self.reach.clear();
         if motion != Motion::Curved {
@@ -136,12 +168,12 @@ impl Paths {
                     balls
                         .velocity
                         .iter()
-                        .map(|v| widen(shape.radius, v.length() * half)),
+                        .map(|v| widen(shape.radius, v.length() * half + margin)),
                 ),
                 None => {
                     let sized = balls.radius.iter().zip(&balls.velocity);
                     self.reach
-                        .extend(sized.map(|(&radius, v)| widen(radius, v.length() * half)));
+                        .extend(sized.map(|(&radius, v)| widen(radius, v.length() * half + margin)));
                 }
             }
             return;
