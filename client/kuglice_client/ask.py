@@ -29,6 +29,8 @@ class Asked:
         traffic: Traffic,
         timeout: float = 5.0,
     ) -> None:
+        self.refused = False
+        """Whether it is the server that said no, and not the network."""
         self._key = key
         self._traffic = traffic
         self._replies: list[bytes] = []
@@ -57,7 +59,8 @@ class Asked:
             if reply is None:
                 return None
             if reply.err is not None:
-                raise JoinError(f"{self._key}: {_reason(reply.err.payload.to_bytes())}")
+                self.refused, reason = _reason(reply.err.payload.to_bytes())
+                raise JoinError(f"{self._key}: {reason}")
             data = reply.ok.payload.to_bytes()
             self._traffic.received["joining"] += len(data)
             self._replies.append(data)
@@ -90,9 +93,9 @@ class Asked:
         raise JoinError(f"{self._key}: {len(replies)} parts came, and some are missing")
 
 
-def _reason(payload: bytes) -> str:
+def _reason(payload: bytes) -> tuple[bool, str]:
     try:
-        return decode(payload, Refusal).reason
+        return True, decode(payload, Refusal).reason
     except ProtocolError:
         # Zenoh's own errors, a timeout for one, are plain text.
-        return payload[:200].decode("utf-8", "replace")
+        return False, payload[:200].decode("utf-8", "replace")

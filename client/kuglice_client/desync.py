@@ -29,7 +29,7 @@ class Desync:
         )
 
 
-def compare_worlds(ours: World, theirs: World, *, tick: int, found_by: str) -> Desync:
+def compare_worlds(ours: World, theirs: World, *, found_by: str) -> Desync:
     """Two states of one tick, ball by ball, bit by bit."""
     our_rows, their_rows = _rows(ours), _rows(theirs)
     ids = sorted(our_rows.keys() | their_rows.keys())
@@ -38,7 +38,7 @@ def compare_worlds(ours: World, theirs: World, *, tick: int, found_by: str) -> D
         f"ball {ball}: here {our_rows.get(ball, 'missing')}, there {their_rows.get(ball, 'missing')}"
         for ball in differing[:SHOWN_BALLS]
     )
-    return Desync(tick, found_by, len(differing), lines)
+    return Desync(ours.tick, found_by, len(differing), lines)
 
 
 def _rows(world: World) -> dict[int, str]:

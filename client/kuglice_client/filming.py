@@ -1,8 +1,8 @@
 """Rendering beside playing: moments go to a process of low priority that draws and encodes them.
 
-Drawing 600 balls and encoding the frame costs as much as several hundred ticks of the step. In the client's own
-process it would delay ticks, and on a machine that the server shares it would delay those too. So the frames
-lag behind the play as much as they must, in a queue with a bound, and are finished after it.
+Drawing 600 balls and encoding the frame costs as much as several hundred ticks of the step. In the client's
+own process it would delay ticks, and on a machine that the server shares it would delay those too. So the
+frames lag behind the play as much as they must, in a queue with a bound, and are finished after it.
 """
 
 from __future__ import annotations

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import logging
 from collections import OrderedDict
 from collections.abc import Iterator
 from typing import NamedTuple
 
 from kuglice import World
+from kuglice.errors import InputError
 from kuglice.protocol import Stretch, StretchedTick
 
 __all__ = ["Confirmed", "Follower"]
+
+log = logging.getLogger(__name__)
 
 BUFFERED_TICKS = 36_000
 KEPT_TICKS = 1_200
@@ -33,6 +37,7 @@ class Follower:
         self.missed_messages = 0
         self.healed_by_repeats = 0
         self.healed_by_history = 0
+        self.unusable = 0
 
     def take(self, stretch: Stretch, *, from_history: bool = False) -> None:
         """Buffer what is not stepped yet. Any order, any overlap."""
@@ -67,11 +72,26 @@ class Follower:
             entry = self._buffer.pop(self.world.tick, None)
             if entry is None:
                 return
-            self.world.step(entry.inputs)
+            try:
+                self.world.step(entry.inputs)
+            except InputError as error:
+                # A damaged tick leaves a gap, which the server's history fills.
+                self.unusable += 1
+                log.warning("tick %d: %s", entry.tick, error)
+                return
             self._kept[entry.tick] = entry
             while len(self._kept) > KEPT_TICKS:
                 self._kept.popitem(last=False)
             yield Confirmed(entry, self.world.state_hash)
+
+    def rerun(self, world: World, until: int) -> bool:
+        """Bring an older state up to state `until` by the ticks kept since; whether they reach that far."""
+        while world.tick < until:
+            entry = self._kept.get(world.tick)
+            if entry is None:
+                return False
+            world.step(entry.inputs)
+        return True
 
     def replace(self, world: World) -> None:
         """Go on from another state: an older one is brought up to where this was, by the ticks kept since."""

@@ -11,13 +11,10 @@ import threading
 import time
 from dataclasses import dataclass
 
-import zenoh
-
 from kuglice import Model, Scene, World, _core
 from kuglice.errors import JoinError, KugliceError, ProtocolError
 from kuglice.protocol import ANY_STATUS, About, Keys, SnapshotRequest, Status, decode
-from kuglice_client.ask import Asked
-from kuglice_client.traffic import Traffic
+from kuglice_client.link import Link
 
 __all__ = ["Joined", "find_world", "join"]
 
@@ -43,11 +40,11 @@ class Joined:
     round_trip: float
 
 
-def find_world(session: zenoh.Session, *, traffic: Traffic, deadline: float, stop: threading.Event) -> str:
+def find_world(link: Link, *, deadline: float, stop: threading.Event) -> str:
     """Name of the only world that is served here. Raises JoinError if there is none, or more than one."""
     while True:
         try:
-            replies = Asked(session, ANY_STATUS, None, traffic=traffic).wait(stop)
+            replies = link.ask(ANY_STATUS, None).wait(stop)
             break
         except JoinError:
             _pause(deadline, stop)
@@ -58,11 +55,10 @@ def find_world(session: zenoh.Session, *, traffic: Traffic, deadline: float, sto
 
 
 def join(
-    session: zenoh.Session,
+    link: Link,
     keys: Keys,
     name: str | None,
     *,
-    traffic: Traffic,
     deadline: float,
     stop: threading.Event,
 ) -> Joined:
@@ -73,7 +69,7 @@ def join(
     """
     while True:
         try:
-            return _attempt(session, keys, name, traffic=traffic, deadline=deadline, stop=stop)
+            return _attempt(link, keys, name, deadline=deadline, stop=stop)
         except _NotYetError as error:
             log.debug("not yet: %s", error)
             _pause(deadline, stop, why=str(error))
@@ -84,16 +80,15 @@ class _NotYetError(JoinError):
 
 
 def _attempt(
-    session: zenoh.Session,
+    link: Link,
     keys: Keys,
     name: str | None,
     *,
-    traffic: Traffic,
     deadline: float,
     stop: threading.Event,
 ) -> Joined:
     try:
-        about = decode(Asked(session, keys.about, None, traffic=traffic).wait_whole(stop).data, About)
+        about = decode(link.ask(keys.about, None).wait_whole(stop).data, About)
     except JoinError as error:
         raise _NotYetError(str(error)) from error
     except ProtocolError as error:
@@ -105,12 +100,10 @@ def _attempt(
         )
     number, sequence = None, 0
     if name is not None:
-        number, sequence = _number(session, keys, name, traffic=traffic, deadline=deadline, stop=stop)
+        number, sequence = _number(link, keys, name, deadline=deadline, stop=stop)
     try:
         asked_at = time.monotonic()
-        snapshot = Asked(
-            session, keys.history, SnapshotRequest(epoch=about.epoch, at=None), traffic=traffic
-        ).wait_whole(stop)
+        snapshot = link.ask(keys.history, SnapshotRequest(epoch=about.epoch, at=None)).wait_whole(stop)
         round_trip = time.monotonic() - asked_at
     except JoinError as error:
         raise _NotYetError(str(error)) from error
@@ -124,17 +117,16 @@ def _attempt(
 
 
 def _number(
-    session: zenoh.Session,
+    link: Link,
     keys: Keys,
     name: str,
     *,
-    traffic: Traffic,
     deadline: float,
     stop: threading.Event,
 ) -> tuple[int, int]:
     while True:
         try:
-            status = decode(Asked(session, keys.status, None, traffic=traffic).wait(stop)[0], Status)
+            status = decode(link.ask(keys.status, None).wait(stop)[0], Status)
         except (JoinError, ProtocolError) as error:
             raise _NotYetError(str(error)) from error
         mine = status.clients.get(name)

@@ -30,7 +30,7 @@ class Reconciler:
         self._every = snapshot_every
         self._states: OrderedDict[int, bytes] = OrderedDict()
         self._waiting: Whole | None = None
-        self._wrong_since: int | None = None
+        self._wrong: World | None = None
         self.hashes_checked = 0
         self.hash_mismatches = 0
         self.snapshots_checked = 0
@@ -43,21 +43,18 @@ class Reconciler:
     @property
     def wrong_since(self) -> int | None:
         """The first tick whose state is known to differ, until a snapshot has put it right."""
-        return self._wrong_since
+        return None if self._wrong is None else self._wrong.tick
 
     def confirmed(self, step: Confirmed) -> None:
         """A tick was stepped: compare its hash, keep the state if a snapshot of it will come."""
         self.hashes_checked += 1
         if step.state_hash != step.entry.state_hash:
             self.hash_mismatches += 1
-            if self._wrong_since is None:
-                self._wrong_since = step.entry.tick + 1
-                log.error(
-                    "state %d: hash %016x here, %016x there",
-                    self._wrong_since,
-                    step.state_hash,
-                    step.entry.state_hash,
-                )
+            if self._wrong is None:
+                # Kept as it is: once the server's state is here, the two can be compared ball by ball.
+                self._wrong = self._follower.world.clone()
+                ours, theirs = step.state_hash, step.entry.state_hash
+                log.error("state %d: hash %016x here, %016x there", self._wrong.tick, ours, theirs)
         self._keep()
 
     def received(self, snapshot: Whole) -> bool:
@@ -67,17 +64,13 @@ class Reconciler:
             self._waiting = snapshot
             return False
         ours = self._states.get(tick)
-        if ours is None and self._wrong_since is None:
-            self.snapshots_too_old += 1
-            return False
         if ours is not None:
             self.snapshots_checked += 1
-            if ours == snapshot.data:
-                # Right at this tick, so whatever is wrong began later: this snapshot cannot tell what it was.
-                if self._wrong_since is None or tick < self._wrong_since:
-                    return False
-            else:
-                self.snapshot_mismatches += 1
+            self.snapshot_mismatches += ours != snapshot.data
+        elif self._wrong is None:
+            self.snapshots_too_old += 1
+        if self._wrong is None and ours in (None, snapshot.data):
+            return False
         return self._take(snapshot, ours)
 
     def compare_waiting(self) -> bool:
@@ -105,18 +98,29 @@ class Reconciler:
         except SnapshotError:
             log.exception("snapshot %d cannot be restored", snapshot.tick)
             return False
-        if ours is not None:
-            self._report(World.restore(world.scene, ours, world.model), theirs)
+        self._report(theirs, ours)
         self.snapshots_taken += 1
         self._states.clear()
-        self._wrong_since = None
+        self._wrong = None
         self._follower.replace(theirs)
         self._keep()
         return True
 
-    def _report(self, ours: World, theirs: World) -> None:
-        found_by = "hash" if self._wrong_since is not None else "snapshot"
-        desync = compare_worlds(ours, theirs, tick=self._wrong_since or theirs.tick, found_by=found_by)
+    def _report(self, theirs: World, ours: bytes | None) -> None:
+        """Compare the first wrong state, if ticks lead to it from theirs; else the two of this tick."""
+        rerun = theirs.clone()
+        if (
+            self._wrong is not None
+            and self._follower.rerun(rerun, self._wrong.tick)
+            and rerun.tick == self._wrong.tick
+        ):
+            desync = compare_worlds(self._wrong, rerun, found_by="hash")
+        elif ours not in (None, theirs.snapshot()):
+            desync = compare_worlds(
+                World.restore(theirs.scene, ours, theirs.model), theirs, found_by="snapshot"
+            )
+        else:
+            return
         if len(self.desyncs) < LOGGED_DESYNCS:
             self.desyncs.append(desync)
             log.error("%s", desync)

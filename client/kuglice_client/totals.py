@@ -17,9 +17,8 @@ class Totals:
     """What the client counts itself, and the figures of server runs that are over."""
 
     messages_thrown_away: int = 0
-    malformed_messages: int = 0
+    malformed_snapshots: int = 0
     rejoins: int = 0
-    gaps_skipped: int = 0
     past: dict[str, Figure] = field(default_factory=dict)
 
     def keep(self, figures: Mapping[str, Figure]) -> None:

@@ -86,3 +86,20 @@ def test_a_newer_state_drops_what_is_behind_it(authority):
     authority.step()
     follower.take(authority.message())
     assert [step.entry.tick for step in follower.advance()] == [authority.world.tick - 1]
+
+
+def test_a_tick_that_the_step_refuses_leaves_a_gap_that_history_fills(authority):
+    follower = Follower(authority.world.clone())
+    authority.step()
+    good = authority.message()
+    follower.take(good.model_copy(update={"inputs": [b"\xff" * 69]}))
+    before = follower.world.snapshot()
+    assert list(follower.advance()) == []
+    assert follower.world.snapshot() == before
+    assert follower.unusable == 1
+    authority.step()
+    follower.take(authority.message())
+    assert follower.gap == (good.first, good.first + 1)
+    follower.take(good, from_history=True)
+    assert len(list(follower.advance())) == 2
+    assert follower.world.snapshot() == authority.world.snapshot()

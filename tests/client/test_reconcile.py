@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from kuglice import World
-from kuglice.inputs import Kick
+from kuglice.inputs import Kick, pack
 from kuglice.protocol import Whole
 from kuglice_client.follow import Follower
 from kuglice_client.reconcile import KEPT_STATES, Reconciler
@@ -33,10 +33,11 @@ class Pair:
                 self.reconciler.confirmed(step)
 
     def go_wrong(self) -> None:
-        """The smallest change there is: one bit of one velocity, in this world only."""
+        """One tick more, in which a velocity gets the smallest change there is, in this world only."""
         changed = self.follower.world.clone()
-        changed.step([Kick(ball=3, vx=2.0**-52, vy=0.0)])
-        self.authority.step()
+        self.run(1)
+        changed.step(self.authority.ticks[-1].inputs + pack([Kick(ball=3, vx=2.0**-50, vy=0.0)]))
+        assert changed.tick == self.follower.world.tick
         assert changed.state_hash != self.authority.world.state_hash
         self.follower.replace(changed)
 
@@ -66,28 +67,24 @@ def test_a_bit_that_differs_is_seen_by_the_next_hash(pair):
     assert pair.reconciler.wrong_since == pair.follower.world.tick
 
 
-def test_a_snapshot_puts_it_right_and_the_report_names_tick_and_balls(pair):
+@pytest.mark.parametrize("tick", [10, 20])
+def test_a_snapshot_puts_it_right_and_the_report_names_tick_and_balls(pair, tick):
+    """One from before it went wrong leads to the very first wrong state, in which one ball differs."""
     pair.run(12)
     pair.go_wrong()
     pair.run(15)
     wrong_since = pair.reconciler.wrong_since
-    assert pair.reconciler.received(pair.snapshots[20])
+    assert wrong_since == 16
+    assert pair.reconciler.received(pair.snapshots[tick])
     assert pair.reconciler.wrong_since is None
     (desync,) = pair.reconciler.desyncs
-    assert desync.tick == wrong_since
+    assert desync.tick == max(wrong_since, tick)
     assert any(line.startswith("ball 3:") for line in desync.balls)
+    if tick < wrong_since:
+        assert desync.differing == 1
     for step in pair.follower.advance():
         pair.reconciler.confirmed(step)
     assert pair.follower.world.snapshot() == pair.authority.world.snapshot()
-
-
-def test_a_snapshot_from_before_it_went_wrong_proves_nothing(pair):
-    pair.run(15)
-    pair.go_wrong()
-    pair.run(2)
-    assert pair.reconciler.wrong_since is not None
-    assert not pair.reconciler.received(pair.snapshots[10])
-    assert pair.reconciler.wrong_since is not None
 
 
 def test_a_snapshot_that_is_ahead_waits_for_its_tick(pair):

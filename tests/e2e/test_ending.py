@@ -16,8 +16,10 @@ from kuglice.replay import Replay
 def test_a_server_that_is_told_to_stop_finishes_its_recording(server, start, endpoint, tmp_path, number):
     player = start("client", "--connect", endpoint, "--bot", "chaser", "--json")
     until(lambda: "joined world" in player.err, what="a client joins")
+    joined = len(Replay.load(tmp_path / "run.kuglice"))
+    until(lambda: len(Replay.load(tmp_path / "run.kuglice")) > joined + 60, what="a second of play")
     server.signal(number)
-    assert server.figures()["ticks"] > 0
+    assert server.figures()["ticks"] > joined + 60
     player.signal(number)
     assert_all_equal(tmp_path / "run.kuglice", [player.figures()])
 
@@ -67,3 +69,19 @@ def test_the_summary_file_holds_what_is_printed(server, start, endpoint, tmp_pat
     path = tmp_path / "deep" / "summary.json"
     player = start("client", "--connect", endpoint, "--seconds", 1, "--summary-json", path, "--json")
     assert player.figures() == json.loads(path.read_text())
+
+
+def test_a_client_that_freezes_is_missed_and_may_come_back(server, start, endpoint, tmp_path):
+    player = start("client", "--connect", endpoint, "--name", "ana", "--bot", "chaser", "--json")
+    until(lambda: "ana joins as client 1" in server.err, what="ana joins")
+    player.signal(signal.SIGSTOP)
+    until(lambda: "ana (client 1) leaves" in server.err, what="ana is missed")
+    player.signal(signal.SIGCONT)
+    until(lambda: server.err.count("ana joins as client 1") == 2, what="ana is back")
+    reached = Replay.load(tmp_path / "run.kuglice")
+    until(lambda: len(Replay.load(tmp_path / "run.kuglice")) > len(reached) + 90, what="she plays on")
+    player.signal(signal.SIGINT)
+    figures = player.figures()
+    server.signal(signal.SIGINT)
+    server.figures()
+    assert_all_equal(tmp_path / "run.kuglice", [figures])

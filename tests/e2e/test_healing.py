@@ -38,9 +38,11 @@ def test_a_world_that_went_wrong_is_found_out_reported_and_replaced(server, endp
     with Client(ClientSettings(connect=(endpoint,), name="ana")) as client:
         playing(client, lambda: client.confirmed.tick > 30)
         # A bit that flips in memory, say: here, a kick that only this client's confirmed world gets.
-        tick = client.confirmed.tick
-        client.confirmed.step([Kick(ball=3, vx=1e-9, vy=0.0)])
-        client.follower.replace(client.confirmed)
+        flipped, tick = client.confirmed.clone(), client.confirmed.tick
+        playing(client, lambda: client.confirmed.tick > tick)
+        flipped.step([Kick(ball=3, vx=1e-9, vy=0.0)])
+        assert client.follower.rerun(flipped, client.confirmed.tick)
+        client.follower.replace(flipped)
         wrong = client.reconciler
         playing(client, lambda: wrong.hash_mismatches > 0)
         assert wrong.wrong_since is not None

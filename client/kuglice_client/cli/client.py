@@ -101,6 +101,8 @@ def client(
         summary_json.write_text(json.dumps(summary, indent=2) + "\n")
     print_figures(f"Client {settings.name or '(spectator)'}", {"client": summary}, as_json=as_json)
     if not summary["agreed"]:
+        compared = summary["hashes_checked"] > 0
+        STDERR.print("states differed from the server's" if compared else "nothing could be compared")
         raise typer.Exit(1)
 
 

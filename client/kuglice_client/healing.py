@@ -1,0 +1,86 @@
+"""What the stream did not bring, or what went wrong, is asked for: one question at a time, no waiting."""
+
+from __future__ import annotations
+
+import logging
+
+from kuglice.errors import JoinError, ProtocolError
+from kuglice.protocol import History, Keys, SnapshotRequest, TickRange, Whole, decode
+from kuglice_client.ask import Asked
+from kuglice_client.follow import Follower
+from kuglice_client.link import Link
+from kuglice_client.reconcile import Reconciler
+
+__all__ = ["Healing"]
+
+log = logging.getLogger(__name__)
+
+TICKS_AGAIN_SECONDS = 0.05
+SNAPSHOT_AGAIN_SECONDS = 0.5
+
+
+class Healing:
+    """Fills gaps from the server's history, and takes a snapshot where that does not reach or bits differ."""
+
+    def __init__(
+        self, link: Link, keys: Keys, *, epoch: int, follower: Follower, reconciler: Reconciler
+    ) -> None:
+        self._link = link
+        self._keys = keys
+        self._epoch = epoch
+        self._follower = follower
+        self._reconciler = reconciler
+        self._asked: Asked | None = None
+        self._snapshot_needed = False
+        self._not_before = 0.0
+        self.gaps_skipped = 0
+
+    def turn(self, now: float) -> bool:
+        """Hear what was answered, ask what is needed. Whether the confirmed world has something new to do."""
+        if self._asked is not None:
+            return self._hear(now)
+        if now >= self._not_before:
+            self._ask()
+        return False
+
+    def _ask(self) -> None:
+        gap = self._follower.gap
+        if self._snapshot_needed or self._reconciler.wrong_since is not None:
+            request: SnapshotRequest | TickRange = SnapshotRequest(epoch=self._epoch, at=None)
+        elif gap is not None:
+            request = TickRange(epoch=self._epoch, first=gap[0], end=gap[1])
+        else:
+            return
+        self._asked = self._link.ask(self._keys.history, request)
+
+    def _hear(self, now: float) -> bool:
+        asked = self._asked
+        assert asked is not None
+        try:
+            whole = asked.poll_whole()
+            if whole is None:
+                return False
+            self._asked = None
+            if whole.of == "snapshot":
+                self._snapshot_needed = False
+                self._not_before = now + SNAPSHOT_AGAIN_SECONDS
+                return self._take(whole)
+            self._not_before = now + TICKS_AGAIN_SECONDS
+            self._follower.take(decode(whole.data, History), from_history=True)
+        except (JoinError, ProtocolError) as error:
+            log.debug("%s", error)
+            # Ticks that the server has no more can only be skipped; a server that is away is asked again.
+            self._snapshot_needed = self._snapshot_needed or asked.refused
+            self._asked = None
+            self._not_before = now + TICKS_AGAIN_SECONDS
+            return False
+        # As above: what the history does not reach back to can only be skipped.
+        self._snapshot_needed = self._follower.gap is not None
+        return True
+
+    def _take(self, whole: Whole) -> bool:
+        if self._follower.gap is not None and whole.tick > self._follower.world.tick:
+            self.gaps_skipped += 1
+            self._reconciler.stranded(whole)
+            return True
+        return self._reconciler.received(whole)

@@ -1,0 +1,131 @@
+"""The client's end of the network: its session, what it subscribed to, what it says."""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from collections.abc import Iterator
+from typing import TypeVar
+
+import zenoh
+
+from kuglice.errors import JoinError, ProtocolError
+from kuglice.protocol import (
+    ClientInputs,
+    Declared,
+    Keys,
+    Message,
+    Part,
+    Tick,
+    client_configuration,
+    close_session,
+    decode,
+    encode,
+    open_session,
+)
+from kuglice_client.ask import Asked
+from kuglice_client.traffic import Traffic
+
+__all__ = ["Link"]
+
+log = logging.getLogger(__name__)
+
+M = TypeVar("M", bound=Message)
+Samples = zenoh.Subscriber[zenoh.handlers.Handler[zenoh.Sample]]
+
+TICK_RING = 1024
+SNAPSHOT_RING = 64
+
+
+class Link:
+    """Connects when made; raises JoinError if that fails until `deadline`, or when `stop` is set.
+
+    Messages wait in rings that drop the oldest: a client that was away for long finds what is fresh, and asks
+    for the rest.
+    """
+
+    def __init__(self, connect: tuple[str, ...], *, deadline: float, stop: threading.Event) -> None:
+        self.traffic = Traffic()
+        self.malformed = 0
+        self.session = _connected(connect, deadline, stop)
+        self._declared: list[Declared] = []
+        self._ticks: Samples | None = None
+        self._snapshots: Samples | None = None
+        self._snapshot_ring = 0
+
+    def listen(self, keys: Keys) -> None:
+        """Subscribe to the tick stream and to snapshots; from now on they are buffered."""
+        self._keys = keys
+        self._ticks = self._subscribe(keys.tick, TICK_RING)
+        self.make_room(SNAPSHOT_RING)
+
+    def show(self, name: str) -> None:
+        """Let the server know that the client `name` is here, for as long as this process lives."""
+        self._declared.append(self.session.liveliness().declare_token(self._keys.client(name)))
+
+    def make_room(self, parts: int) -> None:
+        """Hold at least that many parts of snapshots: fewer than one has, and none would ever be whole."""
+        if parts <= self._snapshot_ring:
+            return
+        if self._snapshots is not None:
+            self._declared.remove(self._snapshots)
+            self._snapshots.undeclare()  # type: ignore[no-untyped-call]
+        self._snapshot_ring = parts
+        self._snapshots = self._subscribe(self._keys.snapshot, parts)
+
+    def ticks(self) -> Iterator[Tick]:
+        """Tick messages that came since the last call."""
+        return self._taken(self._ticks, Tick, "ticks")
+
+    def snapshot_parts(self) -> Iterator[Part]:
+        """Parts of snapshots that came since the last call."""
+        return self._taken(self._snapshots, Part, "snapshots")
+
+    def ask(self, key: str, request: Message | None) -> Asked:
+        """Ask the server; the answer comes later."""
+        return Asked(self.session, key, request, traffic=self.traffic)
+
+    def send(self, name: str, message: ClientInputs) -> None:
+        """Put inputs on one's own key; what is lost is sent again until acknowledged."""
+        data = encode(message)
+        self.traffic.sent["inputs"] += len(data)
+        self.session.put(
+            self._keys.input(name),
+            data,
+            congestion_control=zenoh.CongestionControl.DROP,
+            priority=zenoh.Priority.INTERACTIVE_HIGH,
+            express=True,
+            allowed_destination=zenoh.Locality.REMOTE,
+        )
+
+    def close(self, timeout: float) -> bool:
+        """Leave. False if Zenoh did not finish within `timeout` seconds."""
+        return close_session(self.session, reversed(self._declared), timeout=timeout)
+
+    def _subscribe(self, key: str, ring: int) -> Samples:
+        subscriber = self.session.declare_subscriber(key, zenoh.handlers.RingChannel(ring))
+        self._declared.append(subscriber)
+        return subscriber
+
+    def _taken(self, subscriber: Samples | None, kind: type[M], what: str) -> Iterator[M]:
+        while subscriber is not None and (sample := subscriber.try_recv()) is not None:
+            data = sample.payload.to_bytes()
+            self.traffic.received[what] += len(data)
+            try:
+                message = decode(data, kind)
+            except ProtocolError as error:
+                self.malformed += 1
+                if self.malformed == 1:
+                    log.warning("%s (further ones are only counted)", error)
+                continue
+            yield message
+
+
+def _connected(connect: tuple[str, ...], deadline: float, stop: threading.Event) -> zenoh.Session:
+    while True:
+        try:
+            return open_session(client_configuration(connect, timeout=1.0))
+        except ProtocolError as error:
+            if time.monotonic() > deadline or stop.is_set():
+                raise JoinError(str(error)) from error
