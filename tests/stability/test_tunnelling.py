@@ -17,7 +17,7 @@ REACH = sum(RADII)
 
 
 def seen(contacts: str, moves: float) -> float:
-    """Share of head-on pairs that collide, over all phases; a tick moves them `moves` times r1 + r2 nearer."""
+    """Share of head-on pairs that collide, over all phases, if a tick moves them `moves` (r1 + r2) nearer."""
     # Pair i has a row of its own and meets i / PAIRS of a tick after a tick began.
     move = moves * REACH
     phase = (np.arange(PAIRS) + 0.5) / PAIRS
@@ -67,13 +67,13 @@ def test_event_turns_a_pair_as_the_formula_says_at_any_speed(moves, impact, mass
     first, second = masses
     speed = moves * REACH
     world = make(
-        [[0.0, 0.0], [REACH + 0.5 * speed, impact * REACH]],
+        [[0.0, 0.0], [REACH * math.sqrt(1 - impact**2) + 0.5 * speed, impact * REACH]],
         [[0.0, 0.0], [-speed, 0.0]],
         radius=RADII,
         mass=masses,
         tick_rate=1.0,
     )
-    world.run(2)
+    world.step()
     normal = np.array([math.sqrt(1 - impact**2), impact])
     pushed = -speed * normal[0] * normal * 2 / (first + second)
     expected = np.array([pushed * second, [-speed, 0.0] - pushed * first])
