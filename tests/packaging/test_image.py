@@ -9,7 +9,7 @@ import pytest
 import typer.main
 from ruamel.yaml import YAML
 
-from kuglice.cli import app
+from kuglice.cli.app import build
 
 ROOT = Path(__file__).resolve().parents[2]
 Run = Callable[..., str]
@@ -62,7 +62,7 @@ def test_the_image_runs_those_steps_and_not_as_root() -> None:
 
 
 def test_every_service_of_ours_says_a_command_that_the_command_line_understands() -> None:
-    group = typer.main.get_command(app)
+    group = typer.main.get_command(build())
     ours = {name: service for name, service in services().items() if service["image"] == "kuglice"}
     assert sorted(ours) == ["client-1", "client-2", "server"]
     for service in ours.values():
