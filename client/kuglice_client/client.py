@@ -37,6 +37,8 @@ PREDICTED_SECONDS = 0.5
 BOT_SECONDS = 1 / 15
 IDLE_SECONDS = 0.002
 STALL_SECONDS = 2.0
+LAG_SECONDS = 2.0
+CONFIRM_SECONDS = 0.05
 SNAPSHOT_BYTES_PER_BALL = 64
 KNOWN_EPOCHS = 64
 
@@ -125,11 +127,10 @@ class Client:
         self._receive(now)
         if self.healing.turn(now):
             self.prediction.distrust()
-            self._confirm()
         target = self.clock.target(now)
-        while self.prediction.world.tick < math.floor(target) and self.prediction.may_step(self.confirmed):
-            self._let_bot_act()
-            self.prediction.step()
+        # Who has not even confirmed what is known has no time for guesses.
+        if self._confirm(now):
+            self._predict(math.floor(target))
         if self.outbox is not None and self.settings.name is not None:
             message = self.outbox.message(now)
             if message is not None:
@@ -151,12 +152,13 @@ class Client:
         frames = 0
         while not self.stop.is_set():
             now = time.monotonic()
-            if seconds is not None and now - begin >= seconds:
-                break
             alpha = self.turn(now)
-            while fps is not None and each_frame is not None and now - begin >= frames / fps:
+            played = now - begin if seconds is None else min(now - begin, seconds)
+            while fps is not None and each_frame is not None and played > frames / fps:
                 each_frame(self, alpha)
                 frames += 1
+            if seconds is not None and now - begin >= seconds:
+                break
             self.stop.wait(IDLE_SECONDS)
 
     def summary(self) -> dict[str, Any]:
@@ -210,6 +212,7 @@ class Client:
         self._assembly = Assembly()
         self._heard_at = now
         self._stalled = False
+        self._lagging = False
         self._bot_at = 0
         self._bot_said: Input | None = None
         # The ring must hold a whole snapshot and the begin of the next, also when there will be more balls.
@@ -219,14 +222,7 @@ class Client:
         log.info("joined world %s at tick %d as %s", about.world, joined.world.tick, whom)
 
     def _receive(self, now: float) -> None:
-        for message in self.link.ticks():
-            if message.epoch != self.epoch:
-                if message.epoch not in self._other_epochs:
-                    self._rejoin(message.epoch)
-            elif self.settings.lose is not None and self.settings.lose(message.end - 1):
-                self.totals.messages_thrown_away += 1
-            else:
-                self._heard(message, now)
+        # Snapshots first: one that is ahead waits for its tick, one that is far behind cannot be compared.
         for part in self.link.snapshot_parts():
             try:
                 whole = self._assembly.add(part) if part.epoch == self.epoch else None
@@ -236,6 +232,14 @@ class Client:
                 continue
             if whole is not None and self.reconciler.received(whole):
                 self.prediction.distrust()
+        for message in self.link.ticks():
+            if message.epoch != self.epoch:
+                if message.epoch not in self._other_epochs:
+                    self._rejoin(message.epoch)
+            elif self.settings.lose is not None and self.settings.lose(message.end - 1):
+                self.totals.messages_thrown_away += 1
+            else:
+                self._heard(message, now)
         if now - self._heard_at > STALL_SECONDS and not self._stalled:
             self._stalled = True
             log.warning("no news of world %s for %g s", self._keys.world, STALL_SECONDS)
@@ -252,16 +256,36 @@ class Client:
             if ack.refused is not None:
                 log.warning("refused: %s", ack.refused)
         self.follower.take(message)
-        self._confirm()
 
-    def _confirm(self) -> None:
+    def _confirm(self, now: float) -> bool:
+        """Step through what is known, or, if that is much, through some of it. Whether that was all."""
+        done = True
         for step in self.follower.advance():
             self.prediction.confirm(step.entry)
             self.reconciler.confirmed(step)
             if self.reconciler.compare_waiting():
                 self.prediction.distrust()
                 break
+            if time.monotonic() - now > CONFIRM_SECONDS:
+                done = False
+                break
         self.prediction.reconcile(self.confirmed)
+        self._note_lag()
+        return done
+
+    def _predict(self, tick: int) -> None:
+        while self.prediction.world.tick < tick and self.prediction.may_step(self.confirmed):
+            self._let_bot_act()
+            self.prediction.step()
+
+    def _note_lag(self) -> None:
+        behind = self.follower.behind
+        if not self._lagging and behind > LAG_SECONDS * self.joined.about.rate:
+            self._lagging = True
+            log.warning("%d ticks behind the stream: this machine steps slower than the server", behind)
+        elif self._lagging and behind == 0:
+            self._lagging = False
+            log.info("caught up with the stream")
 
     def _let_bot_act(self) -> None:
         world = self.prediction.world

@@ -66,9 +66,14 @@ class Follower:
             return None
         return self.world.tick, min(self._buffer)
 
-    def advance(self, before: int | None = None) -> Iterator[Confirmed]:
-        """Step through what is buffered, as far as it is complete (and not beyond state `before`)."""
-        while before is None or self.world.tick < before:
+    @property
+    def behind(self) -> int:
+        """Ticks that the stream has told and the world has not done."""
+        return max(0, self._newest + 1 - self.world.tick)
+
+    def advance(self) -> Iterator[Confirmed]:
+        """Step through what is buffered, as far as it is complete; breaking off loses nothing."""
+        while True:
             entry = self._buffer.pop(self.world.tick, None)
             if entry is None:
                 return

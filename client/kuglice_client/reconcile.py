@@ -16,6 +16,7 @@ __all__ = ["Reconciler"]
 log = logging.getLogger(__name__)
 
 KEPT_STATES = 4
+WAITING_SNAPSHOTS = 8
 LOGGED_DESYNCS = 10
 
 
@@ -29,7 +30,7 @@ class Reconciler:
         self._follower = follower
         self._every = snapshot_every
         self._states: OrderedDict[int, bytes] = OrderedDict()
-        self._waiting: Whole | None = None
+        self._waiting: OrderedDict[int, Whole] = OrderedDict()
         self._wrong: World | None = None
         self.hashes_checked = 0
         self.hash_mismatches = 0
@@ -61,7 +62,10 @@ class Reconciler:
         """A snapshot from the server. Whether it replaced the confirmed world."""
         tick = snapshot.tick
         if tick > self._follower.world.tick:
-            self._waiting = snapshot
+            self._waiting[tick] = snapshot
+            while len(self._waiting) > WAITING_SNAPSHOTS:
+                self._waiting.popitem(last=False)
+                self.snapshots_too_old += 1
             return False
         ours = self._states.get(tick)
         if ours is not None:
@@ -74,11 +78,9 @@ class Reconciler:
         return self._take(snapshot, ours)
 
     def compare_waiting(self) -> bool:
-        """The snapshot that was ahead of the confirmed world, if it is not any more."""
-        if self._waiting is None or self._waiting.tick > self._follower.world.tick:
-            return False
-        snapshot, self._waiting = self._waiting, None
-        return self.received(snapshot)
+        """Compare a snapshot that was ahead of the confirmed world, once that has reached its tick."""
+        snapshot = self._waiting.pop(self._follower.world.tick, None)
+        return snapshot is not None and self.received(snapshot)
 
     def stranded(self, snapshot: Whole) -> None:
         """Take a snapshot because nothing else leads on: the gap is longer than the server's history."""
@@ -101,6 +103,7 @@ class Reconciler:
         self._report(theirs, ours)
         self.snapshots_taken += 1
         self._states.clear()
+        self._waiting.clear()
         self._wrong = None
         self._follower.replace(theirs)
         self._keep()

@@ -60,6 +60,7 @@ def summarise(client: Client, *, seconds: float) -> dict[str, Any]:
         "malformed_messages": client.link.malformed + client.totals.malformed_snapshots,
         "rejoins": client.totals.rejoins,
         "lead_ticks": client.clock.lead,
+        "ticks_behind": client.follower.behind,
         "bytes_per_second_received": rates["received"],
         "bytes_per_second_ticks": rates.get("ticks", 0.0),
         "bytes_per_second_snapshots": rates.get("snapshots", 0.0),

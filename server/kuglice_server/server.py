@@ -48,15 +48,15 @@ class ServerSettings:
     """How a world is served; none of it changes its bits.
 
     `rate`: ticks per second of wall clock (None: the scene's). `snapshot_every`: ticks between published
-    snapshots. `insecure`: listen on addresses that others can reach, although there are no accounts and no
-    encryption yet.
+    snapshots (None: a second's worth). `insecure`: listen on addresses that others can reach, although there
+    are no accounts and no encryption yet.
     """
 
     world: str
     listen: Sequence[str] = ("tcp/127.0.0.1:7447",)
     connect: Sequence[str] = ()
     rate: float | None = None
-    snapshot_every: int = 60
+    snapshot_every: int | None = None
     record: Path | None = None
     insecure: bool = False
 
@@ -69,7 +69,7 @@ class ServerSettings:
                     f"endpoint {endpoint!r}: others can reach it, and there are no accounts and no "
                     "encryption yet; say --insecure if that is what you want"
                 )
-        if self.snapshot_every < 1:
+        if self.snapshot_every is not None and self.snapshot_every < 1:
             raise ProtocolError(f"snapshot-every {self.snapshot_every}: must be at least 1 tick")
         if self.rate is not None and not 0 < self.rate <= 10_000:
             raise ProtocolError(f"rate {self.rate}: must be above 0 and at most 10000 ticks per second")
@@ -85,6 +85,7 @@ class Server:
         self.epoch = time.time_ns()
         self.rate = settings.rate if settings.rate is not None else scene.tick_rate
         self.counters: Counter[str] = Counter()
+        self._snapshot_every = settings.snapshot_every or max(1, round(self.rate))
         self._scene = scene
         self._scene_message = scene.to_message()
         self._lock = threading.Lock()
@@ -116,7 +117,7 @@ class Server:
             publisher=publisher,
             tokens=tokens,
             inputs=inputs,
-            snapshot_every=settings.snapshot_every,
+            snapshot_every=self._snapshot_every,
             counters=self.counters,
             lock=self._lock,
             record=self._record,
@@ -173,7 +174,7 @@ class Server:
             scene=self._scene_message,
             model=self.world.model.to_message(),
             rate=self.rate,
-            snapshot_every=self.settings.snapshot_every,
+            snapshot_every=self._snapshot_every,
             history_ticks=self._history.span,
             tick=self._now,
         )

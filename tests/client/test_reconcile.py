@@ -124,3 +124,20 @@ def test_a_snapshot_that_cannot_be_restored_changes_nothing(pair):
     before = pair.follower.world.snapshot()
     assert not pair.reconciler.received(Whole("snapshot", 5, 20, b"nonsense"))
     assert pair.follower.world.snapshot() == before
+
+
+def test_snapshots_that_come_long_before_their_ticks_are_all_compared(pair):
+    """A client that was away finds all of them at once, before it has stepped to any of them."""
+    world, ahead = pair.authority.world, []
+    for _ in range(35):
+        if world.tick % EVERY == 0:
+            ahead.append(Whole("snapshot", 5, world.tick, world.snapshot()))
+        pair.authority.step()
+        pair.follower.take(pair.authority.message())
+    assert len(ahead) == 3
+    for snapshot in ahead:
+        assert not pair.reconciler.received(snapshot)
+    for step in pair.follower.advance():
+        pair.reconciler.confirmed(step)
+        assert not pair.reconciler.compare_waiting()
+    assert (pair.reconciler.snapshots_checked, pair.reconciler.snapshot_mismatches) == (3, 0)

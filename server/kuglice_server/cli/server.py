@@ -42,7 +42,9 @@ def server(
         float | None,
         typer.Option(help="Ticks per second of wall clock; same bits. [default: the scene's tick rate]"),
     ] = None,
-    snapshot_every: Annotated[int, typer.Option(help="Ticks between published snapshots.")] = 60,
+    snapshot_every: Annotated[
+        int | None, typer.Option(help="Ticks between published snapshots. [default: a second's worth]")
+    ] = None,
     record: Annotated[Path | None, typer.Option(help="Write a replay file.")] = None,
     seconds: Annotated[
         float | None, typer.Option(help="Stop after this long. [default: on SIGINT or SIGTERM]")
