@@ -27,6 +27,7 @@ POLL_SECONDS = 0.05
 STOP_SECONDS = 5.0
 START_SECONDS = 20.0
 RECORDING = "game.kuglice"
+STILLS = 4
 
 
 @dataclass(frozen=True)
@@ -39,6 +40,7 @@ class DemoSettings:
     seconds: float = 10.0
     size: str = "960x540"
     film: bool = True
+    trails: float = 0.25
     patience: float = 120.0
 
 
@@ -109,29 +111,22 @@ def _server_arguments(settings: DemoSettings, endpoint: str) -> list[str]:
 
 def _client_arguments(settings: DemoSettings, endpoint: str, bot: str) -> list[str]:
     out = settings.out
-    arguments = [
-        "client",
-        "--connect",
-        endpoint,
-        "--name",
-        bot,
-        "--bot",
-        bot,
-        "--seconds",
-        str(settings.seconds),
-    ]
-    arguments += ["--wait", str(START_SECONDS), "--summary-json", str(out / f"{bot}.json"), "--json"]
+    options = {
+        "--connect": endpoint,
+        "--name": bot,
+        "--bot": bot,
+        "--seconds": settings.seconds,
+        "--wait": START_SECONDS,
+        "--summary-json": out / f"{bot}.json",
+    }
     if settings.film:
-        still = settings.seconds / 4
-        arguments += [
-            "--render",
-            str(out / f"{bot}.mp4"),
-            "--size",
-            settings.size,
-            "--still-every",
-            str(still),
-        ]
-    return arguments
+        options |= {
+            "--render": out / f"{bot}.mp4",
+            "--size": settings.size,
+            "--trails": settings.trails,
+            "--still-every": settings.seconds / STILLS,
+        }
+    return ["client", *(str(word) for option in options.items() for word in option), "--json"]
 
 
 class _Process:

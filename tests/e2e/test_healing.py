@@ -7,6 +7,7 @@ import time
 from e2e.processes import until
 from e2e.verdict import assert_all_equal
 from kuglice.inputs import Kick
+from kuglice.replay import Replay
 from kuglice_client import Client, ClientSettings
 
 
@@ -59,3 +60,21 @@ def test_a_world_that_went_wrong_is_found_out_reported_and_replaced(server, endp
     assert any("ball 3:" in line for line in wrong.desyncs[0].balls)
     server.signal(2)
     assert server.wait() == 0
+
+
+def test_a_client_that_was_away_finds_the_rest_in_the_history(start, scene, endpoint, tmp_path):
+    """Its ring keeps what is fresh and drops what is old: the older ticks are missing when it is back."""
+    record = tmp_path / "fast.kuglice"
+    server = start("server", scene, "--listen", endpoint, "--rate", 600, "--record", record, "--json")
+    with Client(ClientSettings(connect=(endpoint,), name="ana")) as client:
+        playing(client, lambda: client.confirmed.tick > 100)
+        reached = client.confirmed.tick
+        until(lambda: len(Replay.load(record)) > reached + 1500, what="the world goes on without her")
+        playing(client, lambda: client.confirmed.tick > reached + 1500)
+        playing(client, lambda: client.follower.behind < 60)
+        summary = client.summary()
+    server.signal(2)
+    server.figures()
+    assert summary["ticks_healed_by_history"] > 300
+    assert summary["snapshots_taken"] == 0
+    assert_all_equal(record, [summary])

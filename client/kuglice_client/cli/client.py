@@ -16,6 +16,7 @@ from rich.status import Status
 from kuglice.cli.figures import print_figures
 from kuglice.cli.logs import STDERR, log_to_stderr
 from kuglice.cli.stop import stop_on_signals
+from kuglice.errors import KugliceError
 from kuglice_client.bots import BOTS
 from kuglice_client.client import Client, ClientSettings
 
@@ -88,14 +89,19 @@ def client(
     )
     look = _Look(fps, _pixels(size), style, tuple(overlay or ("tick",)), trails, still_every)
     film = None
-    with Client(settings, stop) as playing:
+    summary: dict[str, Any] = {}
+    playing = Client(settings, stop)
+    try:
         if render is not None:
             film = _film(playing, render, look)
         with STDERR.status("playing") as line:
             playing.run(seconds=seconds, fps=fps, each_frame=_shower(film, look, line))
         summary = playing.summary()
-    if film is not None:
-        summary |= _finished(film)
+    finally:
+        # Whatever happened: the server is told at once, and what was played becomes a film.
+        playing.close()
+        if film is not None:
+            summary |= _finished(film)
     if summary_json is not None:
         summary_json.parent.mkdir(parents=True, exist_ok=True)
         summary_json.write_text(json.dumps(summary, indent=2) + "\n")
@@ -104,6 +110,8 @@ def client(
         compared = summary["hashes_checked"] > 0
         STDERR.print("states differed from the server's" if compared else "nothing could be compared")
         raise typer.Exit(1)
+    if "film_error" in summary:
+        raise typer.Exit(2)
 
 
 class _Look(NamedTuple):
@@ -157,6 +165,12 @@ def _shower(film: Film | None, look: _Look, line: Status) -> Callable[[Client, f
 
 
 def _finished(film: Film) -> dict[str, Any]:
-    with STDERR.status(f"finishing the film, {film.waiting} frames to draw"):
-        frames = film.close(FINISH_SECONDS)
-    return {"film": str(film.settings.path), "frames": frames, "frames_left_out": film.left_out}
+    figures: dict[str, Any] = {"film": str(film.settings.path), "frames_left_out": film.left_out}
+    try:
+        with STDERR.status(f"finishing the film, {film.waiting} frames to draw"):
+            figures["frames"] = film.close(FINISH_SECONDS)
+    except KugliceError as error:
+        # The figures of the play are worth keeping without a film too.
+        STDERR.print(str(error), style="red", highlight=False)
+        figures["film_error"] = str(error)
+    return figures

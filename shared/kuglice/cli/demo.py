@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import signal
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -40,6 +41,8 @@ def demo(
     The clients steer through one crowd of balls over the network, each on its own copy of the world. The last
     lines say whether every copy was equal to the server's in every bit; the exit code is 1 if one was not.
     """
+    # However it is ended, the processes that it started are ended too.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     settings = DemoSettings(
         out=out, scene=scene, bots=tuple(bot or DEFAULTS.bots), seconds=seconds, size=size, film=film
     )
