@@ -49,8 +49,9 @@ def test_equal_discs_are_placed_inside_and_apart_up_to_a_packing_of_07(packing, 
 @settings(max_examples=25)
 @given(st.floats(0.01, 0.4), st.floats(1, 30), st.integers(0, 2**64 - 1))
 def test_discs_of_mixed_sizes_are_placed_inside_and_apart(packing, spread, seed):
-    smallest, largest = 1.5 / spread, 1.5
-    count = min(count_for(packing, (smallest + largest) / 2), 1500)
+    smallest, largest = 1.0 / spread, 1.0
+    mean_square = (smallest * smallest + smallest * largest + largest * largest) / 3
+    count = min(count_for(packing, math.sqrt(mean_square)), 1500)
     balls = place([RandomGroup(count=count, radius=(smallest, largest), seed=seed)], BOX)
     assert len(balls) == count
     assert overlaps(balls) == 0
@@ -187,3 +188,5 @@ def test_an_area_that_is_too_full_is_refused():
         kg.Scene(box=(0, 0, 10, 7.85), groups=[RandomGroup(count=90, radius=0.5)])
     with pytest.raises(kg.errors.SceneError, match="does not fit"):
         kg.Scene(box=(0, 0, 10, 10), groups=[RandomGroup(count=300, radius=(0.1, 0.6))])
+    with pytest.raises(kg.errors.SceneError, match=r"place: groups\[0\].count = 300: does not fit"):
+        place([RandomGroup(count=300, radius=(0.1, 0.6))], (0, 0, 10, 10))

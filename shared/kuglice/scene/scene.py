@@ -12,7 +12,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 from kuglice import _core
 from kuglice.balls import Balls
 from kuglice.errors import SceneError
-from kuglice.layout import Group, place
+from kuglice.layout.table import Group, place_in_schema
 from kuglice.scene.forces import Force
 from kuglice.scene.limits import InputLimits
 from kuglice.scene.pins import ModelPins
@@ -68,7 +68,7 @@ class Scene(BaseModel):
     @model_validator(mode="after")
     def _settle(self) -> Self:
         if self.groups:
-            placed = place(self.groups, self.box)
+            placed = place_in_schema(self.groups, self.box)
             if len(self.balls) and self.balls != placed:
                 bound = "give balls or groups, not both: a group of layout listed holds single balls"
                 raise refusal("Scene", [Problem(("balls",), self.balls, bound)])
