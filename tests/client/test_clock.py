@@ -89,3 +89,17 @@ def test_a_long_stall_of_the_server_is_jumped_over():
         clock.heard(n + 1, 11.0 + (n - 60) / RATE)
     now = 11.0 + 139 / RATE
     assert clock.target(now) == pytest.approx(200 + clock.lead, abs=1.0)
+
+
+def test_a_stream_that_falls_back_for_good_is_followed():
+    """A server that lost a moment is behind for good; a client that stayed ahead would predict too much."""
+    clock = Clock(rate=RATE, tick=0, now=0.0, round_trip=0.0)
+    arrival = 0.0
+    for n in range(1500):
+        arrival = n / RATE + (0.2 if n >= 100 else 0.0)
+        clock.heard(n + 1, arrival)
+        clock.target(arrival)
+        if n == 100:
+            assert clock.target(arrival) - (n + 1) > clock.lead + 10
+    assert clock.target(arrival) - 1500 == pytest.approx(clock.lead, abs=0.5)
+    assert clock.snaps == 0

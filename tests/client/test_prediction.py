@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -83,6 +84,22 @@ def test_a_refused_input_is_taken_back(authority):
     for _ in range(3):
         confirm(prediction, confirmed, authority.step())
     assert prediction.world.snapshot() == authority.world.snapshot()
+
+
+@pytest.mark.parametrize("later", [None, 2])
+def test_what_the_server_says_counts_at_once_not_only_when_the_tick_is_confirmed(authority, later):
+    confirmed = authority.world.clone()
+    prediction = Prediction(confirmed, limit=30)
+    given, planned = Kick(client=ME, sequence=1, vx=1.0, vy=0.0), prediction.world.tick
+    prediction.act(given, planned)
+    for _ in range(3):
+        prediction.step()
+    prediction.settle(given, planned, None if later is None else planned + later)
+    assert prediction.reconcile(confirmed)
+    expected = confirmed.clone()
+    for number in range(3):
+        expected.step([given] if number == later else [])
+    assert prediction.world.snapshot() == expected.snapshot()
 
 
 def test_an_input_without_an_answer_is_expected_in_the_next_tick_again_and_again(authority):
