@@ -4,33 +4,26 @@
 //!
 //! - *Rest.* No approach, but an acceleration into the contact: the contact bears it until the substep ends. So does
 //!   an approach no faster than a fall through a millionth of a millionth of the radius would give, which is rounding.
-//! - *Collapse* below restitution 1. Impacts slower than the speed that the balls' own acceleration gains in a substep
-//!   lose nothing, as real ones lose less the slower they are (Brilliantov et al. 1996, doi 10.1103/PhysRevE.53.5382);
-//!   nor does a ball that is hit again within 1/1024 of the substep of its last hit (the contact time of Luding &
-//!   McNamara 1998, doi 10.1007/s100350050017). A ball that touches no other and would leave a wall for less than a
-//!   substep comes to rest on it. Piles so keep a jitter too small to see; they would need endless collisions to lose it.
+//! - *Collapse* below restitution 1. No impact takes a rebound below the speed that the balls' own acceleration gains
+//!   in a substep, and slower ones lose nothing: real ones, too, lose less the slower they are (Brilliantov et al. 1996,
+//!   doi 10.1103/PhysRevE.53.5382). Nor does a ball lose anything that is hit again within 1/1024 of the substep of
+//!   its last hit (the contact time of Luding & McNamara 1998, doi 10.1007/s100350050017). A ball that touches no
+//!   other and would leave a wall for less than a substep comes to rest on it. Piles so keep a jitter too small to
+//!   see; they would need endless collisions to lose it.
 //!
 //! Between kicks a third case appears: a ball whose path leads into the contact while the ball itself leaves it. It
 //! would be back within the substep; it is held there, and gets its velocity back at the end.
 
 use super::paths::{Motion, Paths};
+use super::rest::Support;
+use crate::Balls;
 use crate::contacts::exchange::{Shares, normal};
 use crate::walls::Wall;
-use crate::{Balls, Vec2};
 
 /// Contact time, as a part of the substep.
 const CONTACT_TIME: f64 = 1.0 / 1024.0;
 /// A fall through this part of a radius is taken for rounding.
 const ROUNDING_FALL: f64 = 1e-12;
-
-/// What a contact came to.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Outcome {
-    /// An impulse passed.
-    pub(super) impulse: bool,
-    /// The balls have new paths.
-    pub(super) changed: bool,
-}
 
 /// The law of contact of one substep.
 pub(super) struct Law {
@@ -42,11 +35,11 @@ pub(super) struct Law {
 struct Meeting {
     /// Speed into the contact.
     approach: f64,
-    /// Acceleration into the contact.
+    /// Acceleration into the contact; 0 where it is rounding.
     pressing: f64,
     /// Radius of the smaller ball.
     radius: f64,
-    /// Impacts slower than this lose nothing.
+    /// No impact takes the rebound below this speed.
     slow: f64,
     /// A ball was hit within the contact time.
     again: bool,
@@ -107,19 +100,15 @@ impl Law {
         paths.hits[index] > 0 && time - paths.since[index] < CONTACT_TIME * self.length
     }
 
-    /// Two balls meet.
+    /// Two balls meet. True if an impulse passes between them; `changed` gets the balls that have new paths.
     pub(super) fn pair(
         &self,
         paths: &mut Paths,
         balls: &mut Balls,
-        first: usize,
-        second: usize,
+        (first, second): (usize, usize),
         time: f64,
-    ) -> Outcome {
-        const NOTHING: Outcome = Outcome {
-            impulse: false,
-            changed: false,
-        };
+        changed: &mut Vec<usize>,
+    ) -> bool {
         let (p1, path1) = paths.at(balls, first, time);
         let (p2, path2) = paths.at(balls, second, time);
         let along = normal(p1, p2);
@@ -136,46 +125,44 @@ impl Law {
         };
         let meeting = Meeting {
             approach: approach / length,
-            pressing: pressing / length,
+            pressing: paths.felt(pressing / length, first, second),
             radius: balls.radius[first].min(balls.radius[second]),
             slow: paths.gain(first).max(paths.gain(second)),
             again: self.is_again(paths, first, time) || self.is_again(paths, second, time),
             alone: false,
         };
         let fate = self.fate(&meeting, paths.motion);
-        let (m1, m2) = (balls.mass[first], balls.mass[second]);
         let restitution = match fate {
             Fate::Bounce(restitution) => restitution,
             Fate::Rest | Fate::Hold => 0.0,
-            Fate::Pass => return NOTHING,
+            Fate::Pass => return false,
         };
-        let Some(shares) = Shares::new(m1, m2, restitution) else {
-            return NOTHING;
+        let Some(shares) = Shares::new(balls.mass[first], balls.mass[second], restitution) else {
+            return false;
         };
         let impulse = along * (approach / along.square());
         let (w1, w2) = (v1 - impulse * shares.first, v2 + impulse * shares.second);
-        if matches!(fate, Fate::Bounce(_)) {
-            if (w1, w2) == (v1, v2) {
-                // Slower than the last bit of either velocity: nothing that can be exchanged.
-                return NOTHING;
-            }
-        } else {
-            support_pair(paths, balls, first, second, along);
+        let bounces = matches!(fate, Fate::Bounce(_));
+        if bounces && (w1, w2) == (v1, v2) {
+            // Slower than the last bit of either velocity: nothing that can be exchanged.
+            return false;
         }
         if matches!(fate, Fate::Hold) {
             paths.deferred.push((first, v1 - w1));
             paths.deferred.push((second, v2 - w2));
         }
-        let (path1, path2) = (w1 - paths.ahead(first, time), w2 - paths.ahead(second, time));
-        paths.turn(balls, first, time, p1, path1);
-        paths.turn(balls, second, time, p2, path2);
-        Outcome {
-            impulse: approach > 0.0,
-            changed: true,
-        }
+        let support = (!bounces).then(|| Support::new(first, Some(second), along * (1.0 / length)));
+        paths.strike(
+            balls,
+            time,
+            &[(first, p1, w1), (second, p2, w2)],
+            support,
+            changed,
+        );
+        approach > 0.0
     }
 
-    /// A ball meets a wall.
+    /// A ball meets a wall; the rest is as for a pair.
     pub(super) fn wall(
         &self,
         paths: &mut Paths,
@@ -183,7 +170,8 @@ impl Law {
         index: usize,
         wall: &Wall,
         time: f64,
-    ) -> Outcome {
+        changed: &mut Vec<usize>,
+    ) -> bool {
         let (place, path) = paths.at(balls, index, time);
         let velocity = path + paths.ahead(index, time);
         let approach = -velocity.dot(wall.inward);
@@ -194,58 +182,26 @@ impl Law {
         };
         let meeting = Meeting {
             approach,
-            pressing,
+            pressing: paths.felt(pressing, index, index),
             radius: balls.radius[index],
             slow: paths.gain(index),
             again: self.is_again(paths, index, time),
             alone: paths.hits[index] == 0 && !paths.touched[index],
         };
-        let fate = self.fate(&meeting, paths.motion);
-        let after = match fate {
-            Fate::Bounce(restitution) => wall.with_normal(velocity, restitution * approach),
-            Fate::Rest | Fate::Hold => {
-                paths.acceleration[index] = wall.with_normal(paths.acceleration[index], 0.0);
-                paths.supported[index] = true;
-                wall.with_normal(velocity, 0.0)
+        let (after, support) = match self.fate(&meeting, paths.motion) {
+            Fate::Bounce(restitution) => (wall.with_normal(velocity, restitution * approach), None),
+            Fate::Rest => (
+                wall.with_normal(velocity, 0.0),
+                Some(Support::new(index, None, -wall.inward)),
+            ),
+            Fate::Hold => {
+                let after = wall.with_normal(velocity, 0.0);
+                paths.deferred.push((index, velocity - after));
+                (after, Some(Support::new(index, None, -wall.inward)))
             }
-            Fate::Pass => {
-                return Outcome {
-                    impulse: false,
-                    changed: false,
-                };
-            }
+            Fate::Pass => return false,
         };
-        if matches!(fate, Fate::Hold) {
-            paths.deferred.push((index, velocity - after));
-        }
-        let path = after - paths.ahead(index, time);
-        paths.turn(balls, index, time, place, path);
-        Outcome {
-            impulse: approach > 0.0,
-            changed: true,
-        }
+        paths.strike(balls, time, &[(index, place, after)], support, changed);
+        approach > 0.0
     }
-}
-
-/// Takes from the accelerations of two balls what presses them together: all of it from the one that nothing bears,
-/// if the other rests on something; by their masses otherwise.
-fn support_pair(paths: &mut Paths, balls: &Balls, first: usize, second: usize, along: Vec2) {
-    let bears = |index: usize| balls.mass[index].is_infinite() || paths.supported[index];
-    let (one, two) = (bears(first), bears(second));
-    let mass = |index: usize, bears: bool, other: bool| {
-        if bears && !other {
-            f64::INFINITY
-        } else {
-            balls.mass[index]
-        }
-    };
-    let Some(shares) = Shares::new(mass(first, one, two), mass(second, two, one), 0.0) else {
-        return;
-    };
-    let pressing = (paths.acceleration[first] - paths.acceleration[second]).dot(along);
-    let taken = along * (pressing / along.square());
-    paths.acceleration[first] -= taken * shares.first;
-    paths.acceleration[second] += taken * shares.second;
-    paths.supported[first] |= two;
-    paths.supported[second] |= one;
 }

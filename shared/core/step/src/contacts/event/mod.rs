@@ -13,6 +13,7 @@ mod contact;
 mod paths;
 mod predict;
 mod queue;
+mod rest;
 
 use super::{Contacts, EVENT_LIMIT, Substep};
 use crate::broadphase::{Discs, Pair, Reach};
@@ -30,6 +31,8 @@ pub(super) struct EventDriven {
     queue: Queue,
     pairs: Vec<Pair>,
     near: Vec<u32>,
+    /// Balls that the last event gave new paths.
+    changed: Vec<usize>,
 }
 
 impl Contacts for EventDriven {
@@ -109,25 +112,24 @@ impl EventDriven {
                 return Err(event_limit(substep, &event));
             }
             let first = event.first as usize;
+            self.changed.clear();
             match event.partner.as_ball() {
                 Some(second) => {
-                    let done = law.pair(&mut self.paths, substep.balls, first, second, event.time);
-                    substep.counters.collisions += u64::from(done.impulse);
-                    if done.changed {
-                        self.predict_again(substep, walls.as_ref(), first);
-                        self.predict_again(substep, walls.as_ref(), second);
-                    }
+                    let (paths, changed) = (&mut self.paths, &mut self.changed);
+                    let hit = law.pair(paths, substep.balls, (first, second), event.time, changed);
+                    substep.counters.collisions += u64::from(hit);
                 }
                 None => {
                     let Some(wall) = walls.as_ref().map(|walls| walls.wall(event.partner.as_wall())) else {
                         continue;
                     };
-                    let done = law.wall(&mut self.paths, substep.balls, first, &wall, event.time);
-                    substep.counters.wall_hits += u64::from(done.impulse);
-                    if done.changed {
-                        self.predict_again(substep, walls.as_ref(), first);
-                    }
+                    let (paths, changed) = (&mut self.paths, &mut self.changed);
+                    let hit = law.wall(paths, substep.balls, first, &wall, event.time, changed);
+                    substep.counters.wall_hits += u64::from(hit);
                 }
+            }
+            for at in 0..self.changed.len() {
+                self.predict_again(substep, walls.as_ref(), self.changed[at]);
             }
         }
         Ok(())
@@ -170,15 +172,16 @@ impl EventDriven {
             let (time, half) = (substep.time + substep.dt, 0.5 * substep.dt);
             for index in 0..balls.len() {
                 let first = self.paths.kicks[index];
+                let kept = self.paths.acceleration[index];
                 // As in velocity Verlet: a force of velocity sees the velocity that the first kick predicts.
                 let body = Body {
                     index,
                     mass: balls.mass[index],
                     position: balls.position[index],
-                    velocity: balls.velocity[index] + first * half,
+                    velocity: balls.velocity[index] + kept * half,
                 };
                 // What a resting contact has taken from the first kick, it takes from the second.
-                let taken = first - self.paths.acceleration[index];
+                let taken = first - kept;
                 balls.velocity[index] += (field.at(time, &body) - taken) * half;
             }
             for &(index, velocity) in &self.paths.deferred {

@@ -4,8 +4,12 @@
 //! and `since` is the time at which that piece began. A collision time is computed from two pieces alone, so it does
 //! not depend on when, or by which broadphase, the pair was looked at.
 
+use super::rest::{Support, Supports};
 use crate::force::Body;
 use crate::{Balls, Vec2};
+
+/// The part of an acceleration below which what contacts leave of it is rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// What a piece of path is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -36,8 +40,9 @@ pub(super) struct Paths {
     pub(super) touched: Vec<bool>,
     /// How far apart a pair may be to count as touching.
     margin: f64,
-    /// Balls that rest on something, which bears what they bear.
-    pub(super) supported: Vec<bool>,
+    supports: Supports,
+    /// Balls whose accelerations a strike may change; scratch.
+    loose: Vec<usize>,
     /// Velocities that balls get back at the end of the substep: see [`super::contact`].
     pub(super) deferred: Vec<(usize, Vec2)>,
     /// A disc around all that is left of each ball's path.
@@ -63,15 +68,14 @@ impl Paths {
         self.hits.resize(count, 0);
         self.acceleration.clear();
         self.kicks.clear();
-        self.supported.clear();
         self.deferred.clear();
+        self.supports.clear();
         self.touched.clear();
         self.touched.resize(count, false);
         self.margin = 0.0;
         if motion == Motion::Straight {
             return;
         }
-        self.supported.resize(count, false);
         self.acceleration.extend((0..count).map(|index| {
             let (position, velocity) = (balls.position[index], balls.velocity[index]);
             acceleration(Body {
@@ -94,6 +98,16 @@ impl Paths {
             0.0
         } else {
             self.kicks[index].length() * self.length
+        }
+    }
+
+    /// An acceleration between two balls, or 0 if it is no more than what rounding leaves of theirs.
+    pub(super) fn felt(&self, pressing: f64, first: usize, second: usize) -> f64 {
+        let whole = self.gain(first).max(self.gain(second));
+        if pressing * self.length > ROUNDING * whole {
+            pressing
+        } else {
+            0.0
         }
     }
 
@@ -140,10 +154,85 @@ impl Paths {
         Vec2::ZERO
     }
 
+    /// Gives struck balls, each with its place, new velocities. What they rested on or bore is let go, and `support`,
+    /// if given, bears from now on; all balls that this gives another acceleration begin a new piece of path.
+    pub(super) fn strike(
+        &mut self,
+        balls: &mut Balls,
+        time: f64,
+        struck: &[(usize, Vec2, Vec2)],
+        support: Option<Support>,
+        changed: &mut Vec<usize>,
+    ) {
+        let resettles = support.is_some() || struck.iter().any(|&(index, ..)| self.supports.involve(index));
+        if resettles {
+            self.resettle(balls, time, struck, support, changed);
+        }
+        for &(index, place, velocity) in struck {
+            self.turn(balls, index, time, place, velocity);
+            changed.push(index);
+        }
+    }
+
+    fn resettle(
+        &mut self,
+        balls: &mut Balls,
+        time: f64,
+        struck: &[(usize, Vec2, Vec2)],
+        support: Option<Support>,
+        changed: &mut Vec<usize>,
+    ) {
+        let mut loose = std::mem::take(&mut self.loose);
+        loose.clear();
+        self.supports.balls(&mut loose);
+        loose.retain(|&index| struck.iter().all(|&(other, ..)| other != index));
+        let before: Vec<_> = loose
+            .iter()
+            .map(|&index| {
+                let (place, path) = self.at(balls, index, time);
+                (
+                    index,
+                    place,
+                    path + self.ahead(index, time),
+                    self.acceleration[index],
+                )
+            })
+            .collect();
+        match support {
+            Some(support) => self.supports.add(support),
+            None => struck
+                .iter()
+                .for_each(|&(index, ..)| self.supports.drop_of(index)),
+        }
+        let all = || {
+            struck
+                .iter()
+                .map(|&(index, ..)| index)
+                .chain(loose.iter().copied())
+        };
+        for index in all() {
+            self.acceleration[index] = self.kicks[index];
+        }
+        self.supports.solve(balls, &mut self.acceleration);
+        for index in all() {
+            // What is no more than rounding leaves of the ball's own acceleration is none.
+            if self.acceleration[index].length() * self.length <= ROUNDING * self.gain(index) {
+                self.acceleration[index] = Vec2::ZERO;
+            }
+        }
+        for (index, place, velocity, acceleration) in before {
+            if self.acceleration[index] != acceleration {
+                self.turn(balls, index, time, place, velocity);
+                changed.push(index);
+            }
+        }
+        self.loose = loose;
+    }
+
     /// Begins a new piece of path.
-    pub(super) fn turn(&mut self, balls: &mut Balls, index: usize, time: f64, place: Vec2, velocity: Vec2) {
+    fn turn(&mut self, balls: &mut Balls, index: usize, time: f64, place: Vec2, velocity: Vec2) {
         balls.position[index] = place;
-        balls.velocity[index] = velocity;
+        balls.velocity[index] = velocity - self.ahead(index, time);
         self.since[index] = time;
         self.hits[index] = self.hits[index].wrapping_add(1);
     }
