@@ -11,7 +11,7 @@ help:
 ## make setup   the private .venv with everything in it (every other target does this itself)
 setup: $(SETUP)
 
-$(SETUP): pyproject.toml MANIFEST.in .ci/setup .ci/python-constraints.txt .ci/cargo-versions.txt $(RUST)
+$(SETUP): pyproject.toml MANIFEST.in .ci/setup .ci/python-constraints.txt .ci/build-constraints.txt .ci/cargo-versions.txt $(RUST)
 	@bash .ci/setup $(PYTHON) && touch $@
 
 ## make demo    a server and two clients, films and a verdict in out/demo
