@@ -1,4 +1,4 @@
-"""A grid compiled by numba, what optimised Python reaches: cells of one diameter, a counting sort, one thread."""
+"""A grid compiled by numba, what optimised Python reaches: square cells, a counting sort, one thread."""
 
 from __future__ import annotations
 

@@ -1,0 +1,89 @@
+"""What to expect of a model in a scene, read off the measured table."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from kuglice.model import Model
+from kuglice.plan import measured
+from kuglice.plan.forces import actions
+from kuglice.plan.situation import Situation, situation
+from kuglice.scene import Scene
+
+__all__ = ["Expectation", "expect", "expect_in"]
+
+CONSERVATIVE = frozenset({"gravity", "attractor", "spring"})
+MINUTE = 60.0
+MOST_MOVED = 1.0
+"""Radii that any ball may move between two tests of contact. Two balls head-on then move 2, and still meet."""
+
+
+@dataclass(frozen=True)
+class Expectation:
+    """`error`: position after one collision per ball or a second, in radii (see kuglice.plan.demand)."""
+
+    error: float
+    cost_ms: float
+    """Per tick, on `machine`."""
+    tunnels: bool
+    """Whether the fastest ball can pass through the smallest within a step."""
+    depth: float
+    """To which balls that weigh on each other sink, in radii; 0 if none do."""
+    drift: float
+    """Relative change of energy in a minute, where energy should stay."""
+    machine: str
+
+
+def expect(scene: Scene, model: Model) -> Expectation:
+    """Error and cost of a model in a scene. The table holds elastic balls; e below 1 is taken to be alike."""
+    return expect_in(scene, situation(scene), model)
+
+
+def expect_in(scene: Scene, now: Situation, model: Model) -> Expectation:
+    """The same for a situation that is known."""
+    step = now.tick / model.substeps
+    return Expectation(
+        error=math.hypot(_contact_error(now, model, step), _force_error(scene, now, model, step)),
+        cost_ms=_cost_ms(scene, now, model, step),
+        tunnels=model.contacts != "event" and now.share > MOST_MOVED * model.substeps,
+        depth=measured.sinking(model.contacts) if now.pressed else 0.0,
+        drift=_drift(scene, now, model, step),
+        machine=measured.machine(),
+    )
+
+
+def _contact_error(now: Situation, model: Model, step: float) -> float:
+    move = now.speed * step / now.radius
+    if not now.hits or not move:
+        return 0.0
+    # If but a share of the balls collides, the mean of squares is that share.
+    return measured.contact_error(model.contacts, now.packing, move) * math.sqrt(now.hits)
+
+
+def _force_error(scene: Scene, now: Situation, model: Model, step: float) -> float:
+    """Errors of forces add up; each grows with the time that it acts."""
+    total = 0.0
+    for kind, rate, amplitude in actions(scene, now):
+        relative = measured.force_error(model.integrator, kind, rate * step)
+        total += amplitude * relative * rate * now.window
+    return total / now.radius
+
+
+def _drift(scene: Scene, now: Situation, model: Model, step: float) -> float:
+    """Only forces by place and uniform ones conserve energy, and only if they are all that acts."""
+    if not CONSERVATIVE.issuperset(force.kind for force in scene.forces) or scene.restitution < 1.0:
+        return 0.0
+    total = 0.0
+    for kind, rate, _ in actions(scene, now):
+        # A uniform force has no rate of its own: its time is that of a fall through the box.
+        beat = now.fall_rate if kind == "uniform" else rate
+        total += measured.drift(model.integrator, kind, beat * step) * beat * MINUTE
+    return total
+
+
+def _cost_ms(scene: Scene, now: Situation, model: Model, step: float) -> float:
+    each = measured.contacts_cost(model.contacts, model.broadphase, now.balls, now.rate * step)
+    if scene.forces:
+        each += measured.integrator_cost(model.integrator)
+    return each * now.balls * model.substeps * 1e-6
