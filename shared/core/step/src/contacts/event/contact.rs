@@ -143,8 +143,8 @@ impl Law {
         let impulse = along * (approach / along.square());
         let (w1, w2) = (v1 - impulse * shares.first, v2 + impulse * shares.second);
         let bounces = matches!(fate, Fate::Bounce(_));
-        if bounces && (w1, w2) == (v1, v2) {
-            // Slower than the last bit of either velocity: nothing that can be exchanged.
+        if bounces && (w1 - w2).dot(along) > 0.5 * approach {
+            // An approach below the last bits of the velocities cannot be exchanged: it is rounding, left alone.
             return false;
         }
         if matches!(fate, Fate::Hold) {
