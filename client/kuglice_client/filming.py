@@ -17,9 +17,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from kuglice import Scene
-from kuglice.errors import KugliceError
+from kuglice.errors import KugliceError, PictureError
 from kuglice.picture import encode_png
-from kuglice_client.render import Renderer, open_output
+from kuglice_client.render import OUTPUTS, Renderer, open_output
 from kuglice_client.render.moment import Moment
 
 __all__ = ["Film", "FilmSettings"]
@@ -54,9 +54,12 @@ class FilmSettings:
 
 
 class Film:
-    """Takes moments without ever waiting."""
+    """Takes moments without ever waiting. Raises PictureError at once for what cannot be drawn as asked."""
 
     def __init__(self, scene: Scene, settings: FilmSettings) -> None:
+        if settings.path.suffix.lower() not in OUTPUTS:
+            raise PictureError(f"film {settings.path}: its suffix must be one of {', '.join(OUTPUTS)}")
+        _renderer(scene, settings)
         self.settings = settings
         self.taken = 0
         self.left_out = 0
@@ -122,8 +125,8 @@ def _draw(
             pass
 
 
-def _film(scene: Scene, settings: FilmSettings, moments: Moments) -> int:
-    renderer = Renderer(
+def _renderer(scene: Scene, settings: FilmSettings) -> Renderer:
+    return Renderer(
         scene,
         size=settings.size,
         style=settings.style,
@@ -131,6 +134,10 @@ def _film(scene: Scene, settings: FilmSettings, moments: Moments) -> int:
         trails=settings.trails,
         own=settings.own,
     )
+
+
+def _film(scene: Scene, settings: FilmSettings, moments: Moments) -> int:
+    renderer = _renderer(scene, settings)
     frames = 0
     settings.path.parent.mkdir(parents=True, exist_ok=True)
     with open_output(settings.path, size=settings.size, fps=settings.fps) as output:

@@ -51,7 +51,7 @@ def client(
     ] = None,
     wait: Annotated[float, typer.Option(help="Seconds to keep trying to join.")] = 10.0,
     render: Annotated[
-        Path | None, typer.Option(help="Film what is seen: .mp4, .webm, .gif or a directory.")
+        Path | None, typer.Option(help="Film what is seen: .mp4, .webm, .gif, or frame-%05d.png.")
     ] = None,
     fps: Annotated[int, typer.Option(min=1, max=240, help="Frames per second of the film.")] = 30,
     size: Annotated[str, typer.Option(help="Width and height of the film in pixels.")] = "1280x720",
