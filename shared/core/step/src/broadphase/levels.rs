@@ -6,6 +6,7 @@
 
 use std::ops::Range;
 
+use super::lanes::LANES;
 use super::{Discs, Reach, slack};
 use crate::Vec2;
 
@@ -51,20 +52,6 @@ impl Level {
         }
     }
 
-    /// One cell for all that is wider than any other level's.
-    fn boundless(origin: Vec2, first: usize) -> Level {
-        Level {
-            origin,
-            size: f64::INFINITY,
-            inverse: 0.0,
-            columns: 1,
-            rows: 1,
-            stride: 3,
-            first,
-            population: 0,
-        }
-    }
-
     /// The number behind this level's last cell.
     pub(super) fn end(&self) -> usize {
         self.first + (self.rows as usize + 1) * self.stride
@@ -100,11 +87,7 @@ impl Level {
 
     /// The cells whose discs could meet a disc, row by row.
     pub(super) fn runs(&self, center: Vec2, reach: f64) -> impl Iterator<Item = Range<usize>> + use<> {
-        let far = if self.size.is_finite() {
-            reach + slack(center, reach) + 0.5 * self.size
-        } else {
-            0.0
-        };
+        let far = reach + slack(center, reach) + 0.5 * self.size;
         let (left, right) = (self.column(center.x - far), self.column(center.x + far));
         let (bottom, top) = (self.row(center.y - far), self.row(center.y + far));
         let level = *self;
@@ -113,9 +96,6 @@ impl Level {
 
     /// The rectangle (left, bottom, right, top) of a cell.
     pub(super) fn rectangle(&self, cell: usize) -> [f64; 4] {
-        if self.size.is_infinite() {
-            return [f64::NEG_INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::INFINITY];
-        }
         let (row, column) = (
             (cell - self.first) / self.stride,
             (cell - self.first) % self.stride - 1,
@@ -166,30 +146,29 @@ impl Levels {
     /// Lays the levels out for these discs: over the root, or over the discs alone if they fill little of it.
     pub(super) fn lay_out(&mut self, discs: &Discs<'_>, root: [f64; 4]) {
         self.all.clear();
-        let (least, most) = reaches(discs);
+        let Reaches { finest, most } = Reaches::of(discs);
         let most_cells = CELLS_PER_DISC * discs.len() as f64 + 16.0;
         let [left, bottom, right, top] = root;
         let mut origin = Vec2::new(left, bottom);
         let mut extent = Vec2::new(right - left, top - bottom);
-        let finest = 2.0 * least * MARGIN;
-        if extent.x * extent.y > finest * finest * most_cells || extent.x.max(extent.y) > finest * most_cells
+        let wanted = 2.0 * finest * MARGIN;
+        if extent.x * extent.y > wanted * wanted * most_cells || extent.x.max(extent.y) > wanted * most_cells
         {
             (origin, extent) = bounds(discs);
         }
         let longest = extent.x.max(extent.y);
-        let mut size = finest
+        let mut size = wanted
             .max((extent.x * extent.y / most_cells).sqrt())
             .max(longest / most_cells)
             .max(longest / MOST_CELLS)
             .max(f64::MIN_POSITIVE);
         loop {
+            if self.all.len() + 1 == MOST_LEVELS {
+                size = size.max(2.0 * most * MARGIN);
+            }
             let level = Level::new(origin, extent, size, self.cells());
             self.all.push(level);
-            if level.takes(most) {
-                return;
-            }
-            if self.all.len() == MOST_LEVELS {
-                self.all.push(Level::boundless(origin, level.end()));
+            if level.takes(most) || self.all.len() == MOST_LEVELS {
                 return;
             }
             size *= 2.0;
@@ -197,14 +176,59 @@ impl Levels {
     }
 }
 
-/// The least and the greatest reach.
-fn reaches(discs: &Discs<'_>) -> (f64, f64) {
-    match discs.reach {
-        Reach::Same(reach) => (reach, reach),
-        Reach::Each([]) => (1.0, 1.0),
-        Reach::Each(all) => all.iter().fold((f64::INFINITY, 0.0), |(least, most), &reach| {
-            (reach.min(least), reach.max(most))
-        }),
+/// What the reaches of the discs ask of the levels.
+struct Reaches {
+    /// The reach that the finest level is made for.
+    finest: f64,
+    most: f64,
+}
+
+impl Reaches {
+    /// Discs that differ little share the finest level: it takes up to a quarter more than the mean, but at the most
+    /// twice the least.
+    fn of(discs: &Discs<'_>) -> Reaches {
+        match discs.reach {
+            Reach::Same(reach) => Reaches {
+                finest: reach,
+                most: reach,
+            },
+            Reach::Each([]) => Reaches {
+                finest: 1.0,
+                most: 1.0,
+            },
+            Reach::Each(all) => {
+                let (mut least, mut most, mut sum) = ([f64::INFINITY; LANES], [0.0; LANES], [0.0; LANES]);
+                let (fours, rest) = all.as_chunks::<LANES>();
+                for four in fours {
+                    for lane in 0..LANES {
+                        least[lane] = if four[lane] < least[lane] {
+                            four[lane]
+                        } else {
+                            least[lane]
+                        };
+                        most[lane] = if four[lane] > most[lane] {
+                            four[lane]
+                        } else {
+                            most[lane]
+                        };
+                        sum[lane] += four[lane];
+                    }
+                }
+                let least = least
+                    .iter()
+                    .chain(rest)
+                    .fold(f64::INFINITY, |least, &reach| reach.min(least));
+                let most = most
+                    .iter()
+                    .chain(rest)
+                    .fold(0.0, |most: f64, &reach| reach.max(most));
+                let mean = sum.iter().chain(rest).sum::<f64>() / all.len() as f64;
+                Reaches {
+                    finest: (1.25 * mean).min(2.0 * least).min(most),
+                    most,
+                }
+            }
+        }
     }
 }
 

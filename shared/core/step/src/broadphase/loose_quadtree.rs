@@ -178,8 +178,20 @@ impl<'a, const EACH: bool> Probe<'a, EACH> {
         }
     }
 
-    /// A bit for each of the discs from `start` on that overlaps this one.
+    /// A disc that is not among the sorted ones.
     #[inline]
+    fn at(sorted: &'a Sorted, center: Vec2, reach: f64) -> Probe<'a, EACH> {
+        Probe {
+            sorted,
+            x: center.x,
+            y: center.y,
+            reach,
+            index: u32::MAX,
+        }
+    }
+
+    /// A bit for each of the discs from `start` on that overlaps this one.
+    #[inline(always)]
     fn lanes(&self, start: usize) -> u32 {
         let squares = if EACH {
             lanes_at(&self.sorted.reach, start).map(|reach| {
@@ -279,18 +291,29 @@ impl Broadphase for LooseQuadtree {
     }
 
     fn query(&self, center: Vec2, reach: f64, found: &mut Vec<u32>) {
+        // Generous by a rounding or two: what is found in vain is looked at again.
+        let reach = reach * (1.0 + 1e-9);
         let touches = |other: Vec2, far: f64| {
             let sum = reach + far;
-            (center - other).square() <= sum * sum * (1.0 + 1e-9)
+            (center - other).square() <= sum * sum
         };
         for level in self.levels.all().iter().filter(|level| level.population > 0) {
             for run in level.runs(center, reach) {
-                for slot in self.offsets[run.start] as usize..self.offsets[run.end] as usize {
-                    let other = Vec2::new(self.sorted.x[slot], self.sorted.y[slot]);
-                    let far = self.same.unwrap_or_else(|| self.sorted.reach[slot]);
-                    let index = self.sorted.tag[slot].index;
-                    if touches(other, far) && !self.relocated.holds(index) {
-                        found.push(index);
+                let (start, end) = (self.offsets[run.start] as usize, self.offsets[run.end] as usize);
+                for first in (start..end).step_by(LANES) {
+                    let mut hits = lanes_of(end - first)
+                        & match self.same {
+                            Some(same) => {
+                                Probe::<false>::at(&self.sorted, center, 0.5 * (reach + same)).lanes(first)
+                            }
+                            None => Probe::<true>::at(&self.sorted, center, reach).lanes(first),
+                        };
+                    while hits != 0 {
+                        let index = self.sorted.tag[first + hits.trailing_zeros() as usize].index;
+                        hits &= hits - 1;
+                        if !self.relocated.holds(index) {
+                            found.push(index);
+                        }
                     }
                 }
                 self.relocated.in_cells(run, |index, other, far| {
