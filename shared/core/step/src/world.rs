@@ -89,12 +89,29 @@ impl World {
                 "dt is {dt} s, it must be above 0 and finite"
             )));
         }
-        self.last.clone_from(&self.state);
+        if inputs.is_empty() {
+            self.last.counters = self.state.counters;
+            self.last.balls.position.clone_from(&self.state.balls.position);
+            self.last.balls.velocity.clone_from(&self.state.balls.velocity);
+        } else {
+            self.last.clone_from(&self.state);
+        }
         let done = self.try_step(inputs, dt);
         if done.is_err() {
-            std::mem::swap(&mut self.state, &mut self.last);
+            self.go_back(!inputs.is_empty());
         }
         done
+    }
+
+    /// Back to the last whole tick. One without inputs has changed nothing but these.
+    fn go_back(&mut self, whole: bool) {
+        if whole {
+            std::mem::swap(&mut self.state, &mut self.last);
+            return;
+        }
+        self.state.counters = self.last.counters;
+        std::mem::swap(&mut self.state.balls.position, &mut self.last.balls.position);
+        std::mem::swap(&mut self.state.balls.velocity, &mut self.last.balls.velocity);
     }
 
     fn try_step(&mut self, inputs: &[Input], dt: Option<f64>) -> Result<(), Error> {
