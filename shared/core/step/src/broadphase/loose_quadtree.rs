@@ -6,36 +6,12 @@
 //! cells double those of the level below. A table of offsets per cell, filled by a counting sort, stands for the tree.
 //! Centres outside the bounds count to the nearest cell, which keeps neighbours neighbours.
 
-use super::lanes::{LANES, near};
+use super::lanes::LANES;
 use super::levels::{Level, Levels};
 use super::relocated::Relocated;
+use super::sorted::{Probe, Sorted, Tag, lanes_of};
 use super::{Broadphase, Discs, Pair, Reach, Settings};
 use crate::Vec2;
-
-#[derive(Clone, Copy, Default)]
-struct Tag {
-    index: u32,
-    cell: u32,
-}
-
-/// The discs, sorted by cell; the arrays go on for a few lanes behind the last disc.
-#[derive(Default)]
-struct Sorted {
-    x: Vec<f64>,
-    y: Vec<f64>,
-    /// Unused if all discs share their reach.
-    reach: Vec<f64>,
-    tag: Vec<Tag>,
-}
-
-impl Sorted {
-    fn resize(&mut self, count: usize, with_reach: bool) {
-        self.x.resize(count + LANES, 0.0);
-        self.y.resize(count + LANES, 0.0);
-        self.reach.resize(if with_reach { count + LANES } else { 0 }, 0.0);
-        self.tag.resize(count + LANES, Tag::default());
-    }
-}
 
 pub(super) struct LooseQuadtree {
     root: [f64; 4],
@@ -154,100 +130,6 @@ impl LooseQuadtree {
             }
         }
     }
-}
-
-/// One disc, compared with others.
-struct Probe<'a, const EACH: bool> {
-    sorted: &'a Sorted,
-    x: f64,
-    y: f64,
-    reach: f64,
-    index: u32,
-}
-
-impl<'a, const EACH: bool> Probe<'a, EACH> {
-    #[inline]
-    fn new(sorted: &'a Sorted, slot: usize, reach: f64) -> Probe<'a, EACH> {
-        let reach = if EACH { sorted.reach[slot] } else { reach };
-        Probe {
-            sorted,
-            x: sorted.x[slot],
-            y: sorted.y[slot],
-            reach,
-            index: sorted.tag[slot].index,
-        }
-    }
-
-    /// A disc that is not among the sorted ones.
-    #[inline]
-    fn at(sorted: &'a Sorted, center: Vec2, reach: f64) -> Probe<'a, EACH> {
-        Probe {
-            sorted,
-            x: center.x,
-            y: center.y,
-            reach,
-            index: u32::MAX,
-        }
-    }
-
-    /// A bit for each of the discs from `start` on that overlaps this one.
-    #[inline(always)]
-    fn lanes(&self, start: usize) -> u32 {
-        let squares = if EACH {
-            lanes_at(&self.sorted.reach, start).map(|reach| {
-                let sum = self.reach + reach;
-                sum * sum
-            })
-        } else {
-            let sum = self.reach + self.reach;
-            [sum * sum; LANES]
-        };
-        near(
-            lanes_at(&self.sorted.x, start),
-            lanes_at(&self.sorted.y, start),
-            self.x,
-            self.y,
-            &squares,
-        )
-    }
-
-    #[inline]
-    fn report(&self, mut hits: u32, start: usize, found: &mut Vec<Pair>) {
-        while hits != 0 {
-            let slot = start + hits.trailing_zeros() as usize;
-            hits &= hits - 1;
-            let (dx, dy) = (self.sorted.x[slot] - self.x, self.sorted.y[slot] - self.y);
-            let sum = self.reach + if EACH { self.sorted.reach[slot] } else { self.reach };
-            if dx * dx + dy * dy < sum * sum {
-                let other = self.sorted.tag[slot].index;
-                found.push((self.index.min(other), self.index.max(other)));
-            }
-        }
-    }
-
-    /// What a run holds beyond its first lanes.
-    #[cold]
-    fn rest(&self, run: std::ops::Range<usize>, found: &mut Vec<Pair>) {
-        let mut start = run.start + LANES;
-        while start < run.end {
-            self.report(self.lanes(start) & lanes_of(run.end - start), start, found);
-            start += LANES;
-        }
-    }
-}
-
-/// The numbers from `start` on, as many as there are lanes.
-#[inline]
-fn lanes_at(numbers: &[f64], start: usize) -> &[f64; LANES] {
-    numbers[start..]
-        .first_chunk()
-        .expect("the arrays go on behind the last disc")
-}
-
-/// A bit for each lane that a run of that length fills.
-#[inline]
-fn lanes_of(length: usize) -> u32 {
-    (1 << length.min(LANES)) - 1
 }
 
 impl Broadphase for LooseQuadtree {

@@ -10,6 +10,7 @@ mod levels;
 mod loose_quadtree;
 mod quadtree;
 mod relocated;
+mod sorted;
 
 pub use discs::{Discs, Reach};
 
