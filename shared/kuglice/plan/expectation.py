@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+
+import numpy as np
 
 from kuglice.model import Model
 from kuglice.plan import measured
-from kuglice.plan.forces import actions
+from kuglice.plan.forces import Action, actions
 from kuglice.plan.situation import Situation, situation
 from kuglice.scene import Scene
 
@@ -37,18 +40,19 @@ class Expectation:
 
 def expect(scene: Scene, model: Model) -> Expectation:
     """Error and cost of a model in a scene. The table holds elastic balls; e below 1 is taken to be alike."""
-    return expect_in(scene, situation(scene), model)
+    now = situation(scene)
+    return expect_in(scene, now, actions(scene, now), model)
 
 
-def expect_in(scene: Scene, now: Situation, model: Model) -> Expectation:
-    """The same for a situation that is known."""
+def expect_in(scene: Scene, now: Situation, acting: Sequence[Action], model: Model) -> Expectation:
+    """The same for a situation and actions of forces that are known."""
     step = now.tick / model.substeps
     return Expectation(
-        error=math.hypot(_contact_error(now, model, step), _force_error(scene, now, model, step)),
+        error=math.hypot(_contact_error(now, model, step), _force_error(now, acting, model, step)),
         cost_ms=_cost_ms(scene, now, model, step),
         tunnels=model.contacts != "event" and now.share > MOST_MOVED * model.substeps,
         depth=measured.sinking(model.contacts) if now.pressed else 0.0,
-        drift=_drift(scene, now, model, step),
+        drift=_drift(scene, now, acting, model, step),
         machine=measured.machine(),
     )
 
@@ -61,24 +65,25 @@ def _contact_error(now: Situation, model: Model, step: float) -> float:
     return measured.contact_error(model.contacts, now.packing, move) * math.sqrt(now.hits)
 
 
-def _force_error(scene: Scene, now: Situation, model: Model, step: float) -> float:
-    """Errors of forces add up; each grows with the time that it acts."""
+def _force_error(now: Situation, acting: Sequence[Action], model: Model, step: float) -> float:
+    """Errors of forces add up; each grows with the time that it acts. Root mean square over balls."""
     total = 0.0
-    for kind, rate, amplitude in actions(scene, now):
-        relative = measured.force_error(model.integrator, kind, rate * step)
-        total += amplitude * relative * rate * now.window
+    for kind, rate, amplitude in acting:
+        errors = amplitude * measured.force_error(model.integrator, kind, rate * step) * rate * now.window
+        total += math.sqrt(float((errors * errors).mean()))
     return total / now.radius
 
 
-def _drift(scene: Scene, now: Situation, model: Model, step: float) -> float:
+def _drift(scene: Scene, now: Situation, acting: Sequence[Action], model: Model, step: float) -> float:
     """Only forces by place and uniform ones conserve energy, and only if they are all that acts."""
     if not CONSERVATIVE.issuperset(force.kind for force in scene.forces) or scene.restitution < 1.0:
         return 0.0
     total = 0.0
-    for kind, rate, _ in actions(scene, now):
-        # A uniform force has no rate of its own: its time is that of a fall through the box.
-        beat = now.fall_rate if kind == "uniform" else rate
-        total += measured.drift(model.integrator, kind, beat * step) * beat * MINUTE
+    for kind, rate, _ in acting:
+        # A uniform force has no rate of its own: its time is that of a fall.
+        beat = np.array([max(now.fall_rate, 1e-9)]) if kind == "uniform" else rate
+        table = "uniform" if kind == "uniform" else "spring"
+        total += float((measured.drift(model.integrator, table, beat * step) * beat).mean()) * MINUTE
     return total
 
 

@@ -13,57 +13,56 @@ from kuglice.scene import Scene
 
 __all__ = ["Action", "actions"]
 
+Floats = NDArray[np.float64]
+
+SAMPLE = 200
+
 
 class Action(NamedTuple):
-    """`kind`: what the force depends on. `rate` in 1/s, `amplitude` as a length."""
+    """`kind`: as in the table of errors. `rate` in 1/s, `amplitude` as a length: of single balls."""
 
     kind: str
-    rate: float
-    amplitude: float
+    rate: Floats
+    amplitude: Floats
 
 
 def actions(scene: Scene, now: Situation) -> list[Action]:
     """Of every force, at the balls' places at the start; of held inputs, the most that the scene allows."""
-    movable = np.isfinite(scene.balls.mass)
-    mass, position = scene.balls.mass[movable], scene.balls.position[movable]
-    lightest = float(mass.min()) if len(mass) else 1.0
+    movable = np.flatnonzero(np.isfinite(scene.balls.mass))
+    # A few hundred balls tell as much as a million.
+    chosen = movable[:: max(1, len(movable) // SAMPLE)]
+    mass, position = scene.balls.mass[chosen], scene.balls.position[chosen]
     found = []
-    for force in scene.forces:
+    for force in scene.forces if len(chosen) else ():
         match force.kind:
             case "gravity":
                 found.append(_uniform(math.hypot(force.x, force.y), now))
             case "thrust":
                 # Held for whole ticks, so constant within each.
-                pushed = scene.players.mass if scene.players is not None else lightest
+                pushed = scene.players.mass if scene.players is not None else float(mass.min())
                 found.append(_uniform((scene.limits.thrust or 0.0) / pushed, now))
             case "drag" if force.coefficient > 0:
-                rate = force.coefficient / lightest
+                rate = force.coefficient / mass
                 found.append(Action("velocity", rate, now.speed / rate))
-            case "spring" if force.stiffness > 0 and len(mass):
+            case "spring" if force.stiffness > 0:
                 apart = np.sqrt(((position - (force.x, force.y)) ** 2).sum(axis=1))
-                amplitude = math.sqrt(float((apart * apart).mean()))
-                found.append(Action("place", math.sqrt(force.stiffness / lightest), amplitude))
-            case "attractor" if force.strength and len(mass):
+                found.append(Action("spring", np.sqrt(force.stiffness / mass), apart))
+            case "attractor" if force.strength:
                 apart = np.sqrt(((position - (force.x, force.y)) ** 2).sum(axis=1))
                 found.append(_attractor(abs(force.strength), force.softening, apart))
             case "attract" if scene.limits.attract:
                 # A player may hold it anywhere, so right where it is strongest.
                 place = np.array([force.softening / math.sqrt(2.0)])
                 found.append(_attractor(scene.limits.attract, force.softening, place))
-    return [action for action in found if action.rate > 0.0 and action.amplitude > 0.0]
+    return [action for action in found if action.rate.min() > 0.0]
 
 
 def _uniform(acceleration: float, now: Situation) -> Action:
-    return Action("uniform", 1.0 / now.window, acceleration * now.window * now.window)
+    rate = 1.0 / now.window if acceleration else 0.0
+    return Action("uniform", np.array([rate]), np.array([acceleration * now.window * now.window]))
 
 
-def _attractor(strength: float, softening: float, apart: NDArray[np.float64]) -> Action:
-    """Root mean square over balls of what each would have as an oscillator of its own."""
-    cubed = (apart * apart + softening * softening) ** 1.5
-    rate = np.sqrt(strength / cubed)
-    # Errors go with a high power of the rate, so that the fastest orbits decide.
-    weight = rate**4 / (rate**4).sum()
-    amplitude = math.sqrt(
-        float((weight * apart * apart).sum()) * float((rate**4).sum() / rate.max() ** 4 / len(rate))
-    )
-    return Action("place", float(rate.max()), amplitude)
+def _attractor(strength: float, softening: float, apart: Floats) -> Action:
+    """As if each ball were on a circle around it."""
+    rate = np.sqrt(strength / (apart * apart + softening * softening) ** 1.5)
+    return Action("orbit", rate, apart)

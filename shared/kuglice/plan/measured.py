@@ -11,7 +11,12 @@ from collections.abc import Callable, Iterable
 from functools import cache
 from importlib.resources import files
 
+import numpy as np
+from numpy.typing import NDArray
+
 __all__ = ["contact_error", "contacts_cost", "drift", "force_error", "integrator_cost", "machine", "sinking"]
+
+Floats = NDArray[np.float64]
 
 FILE = "measured.csv"
 TINY = 1e-300
@@ -43,54 +48,52 @@ def _curve(x: str, **wanted: str) -> Curve:
     )
 
 
+@cache
+def _curves(by: str, **wanted: str) -> dict[float, Curve]:
+    """One curve for each value of `by`."""
+    values = {row[by] for row in _content()[1] if all(row[name] == value for name, value in wanted.items())}
+    return {float(value): _curve("x", **{by: value}, **wanted) for value in values}
+
+
+@cache
+def _value(**wanted: str) -> float:
+    return next(
+        float(row["value"])
+        for row in _content()[1]
+        if all(row[name] == value for name, value in wanted.items())
+    )
+
+
 def contact_error(contacts: str, packing: float, move: float) -> float:
     """In radii at one collision per ball; `move` is speed * tick / radius. Between packings by logarithms."""
-    packings = sorted({row["packing"] for row in _content()[1] if row["kind"] == "contact error"}, key=float)
-    curves = {
-        float(each): _curve("x", kind="contact error", contacts=contacts, packing=each) for each in packings
-    }
+    curves = _curves("packing", kind="contact error", contacts=contacts)
     return _between(packing, curves, lambda curve: _power(curve, move, steepest=1.0))
 
 
-def force_error(integrator: str, force: str, step: float) -> float:
-    """In amplitudes after one radian; `step` is omega * dt. `force`: place, velocity or uniform."""
-    return _power(_curve("x", kind="force error", integrator=integrator, force=force), step)
+def force_error(integrator: str, force: str, step: Floats) -> Floats:
+    """In amplitudes per radian; `step` is omega * dt. `force`: spring, orbit, velocity or uniform."""
+    return _powers(_curve("x", kind="force error", integrator=integrator, force=force), step)
 
 
-def drift(integrator: str, force: str, step: float) -> float:
-    """Relative change of energy per radian, or per time of fall; `step` is omega * dt."""
-    return _power(_curve("x", kind="drift", integrator=integrator, force=force), step)
+def drift(integrator: str, force: str, step: Floats) -> Floats:
+    """Relative change of energy per radian, or per time of fall; `step` is omega * dt. `force`: spring, uniform."""
+    return _powers(_curve("x", kind="drift", integrator=integrator, force=force), step)
 
 
 def sinking(contacts: str) -> float:
     """Deepest overlap, in radii, of balls that weigh on each other."""
-    return next(
-        float(row["value"])
-        for row in _content()[1]
-        if row["kind"] == "sinking" and row["contacts"] == contacts
-    )
+    return _value(kind="sinking", contacts=contacts)
 
 
 def contacts_cost(contacts: str, broadphase: str, balls: int, hits: float) -> float:
     """ns per ball-step without forces; `hits` is the collisions per ball and tick."""
-    wanted = [
-        row
-        for row in _content()[1]
-        if row["kind"] == "cost" and row["contacts"] == contacts and row["broadphase"] == broadphase
-    ]
-    curves: dict[float, Curve] = {}
-    for row in wanted:
-        curves.setdefault(float(row["balls"]), []).append((float(row["x"]), float(row["value"])))
-    return _between(max(balls, 1), curves, lambda curve: _line(sorted(curve), hits), open_ended=True)
+    curves = _curves("balls", kind="cost", contacts=contacts, broadphase=broadphase)
+    return _between(max(balls, 1), curves, lambda curve: _line(curve, hits), open_ended=True)
 
 
 def integrator_cost(integrator: str) -> float:
     """ns that it adds to a ball-step if there is a force."""
-    return next(
-        float(row["value"])
-        for row in _content()[1]
-        if row["kind"] == "integrator cost" and row["integrator"] == integrator
-    )
+    return _value(kind="integrator cost", integrator=integrator)
 
 
 def _power(curve: Curve, x: float, steepest: float = math.inf) -> float:
@@ -104,6 +107,15 @@ def _power(curve: Curve, x: float, steepest: float = math.inf) -> float:
     if x < x0:
         slope = min(slope, steepest)
     return math.exp(math.log(max(y0, TINY)) + slope * (math.log(x) - math.log(x0)))
+
+
+def _powers(curve: Curve, x: Floats) -> Floats:
+    """`_power` of many."""
+    places, values = np.log(np.array(curve)[:, 0]), np.log(np.maximum(np.array(curve)[:, 1], TINY))
+    after = np.clip(np.searchsorted(places, np.log(x)), 1, len(curve) - 1)
+    slope = (values[after] - values[after - 1]) / (places[after] - places[after - 1])
+    found: Floats = np.exp(values[after - 1] + slope * (np.log(x) - places[after - 1]))
+    return found
 
 
 def _line(curve: Curve, x: float) -> float:

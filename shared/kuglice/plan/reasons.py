@@ -91,15 +91,15 @@ def _refused(each: Candidate, scene: Scene) -> str:
 def _substeps(scene: Scene, now: Situation, chosen: Candidate, every: Sequence[Candidate]) -> str:
     count = chosen.model.substeps
     moved = f"the mean ball moves {now.speed * now.tick / now.radius:.2g} radii in a tick"
-    if count == 1:
-        return f"{moved}, short enough."
     fewer = [
         each
         for each in every
         if (each.model.integrator, each.model.contacts) == (chosen.model.integrator, chosen.model.contacts)
         and each.model.substeps < count
     ]
-    if fewer and fewer[-1].expected.tunnels:
+    if not fewer:
+        return f"{moved}, short enough."
+    if fewer[-1].expected.tunnels:
         return f"{now.who} of {now.fastest:.3g} per second moves {now.share:.2g} radii in a tick."
     return f"{moved}; with fewer substeps the error would be {fewer[-1].expected.error:.2g} radii."
 

@@ -20,8 +20,8 @@ def draw(rows: Rows) -> Figure:
     figure, panels = sheet(
         "What the planner knows",
         "Errors and costs from which plan(scene) picks the cheapest model that meets what a scene demands."
-        " Left: packing 0.05 dotted, 0.30 solid, 0.60 dashed. Middle: force by place (solid), by velocity"
-        " (dotted). Right: calm gas (dotted) and busy gas (solid).",
+        " Left: packing 0.05 dotted, 0.30 solid, 0.60 dashed. Middle: a spring (solid), an orbit (dashed),"
+        " drag (dotted). Right: calm gas (dotted) and busy gas (solid).",
         rows=1,
         columns=3,
         height=7.4,
@@ -49,13 +49,13 @@ def _forces(axes: Axes, rows: Rows) -> None:
     axes.set_title("Integrators")
     labels = []
     for integrator, colour in INTEGRATOR.items():
-        for kind, line in (("place", "-"), ("velocity", ":")):
+        for kind, line in (("spring", "-"), ("orbit", "--"), ("velocity", ":")):
             found = where(rows, integrator=integrator, force=kind)
             if found:
                 x, y = _curve(axes, found, line, colour)
-                if kind == "place":
+                if kind == "spring":
                     labels.append(Label(integrator.replace("_", " "), x, y, colour))
-    _finish(axes, labels, "\u03c9 \u00b7 dt", "Position error after one radian, in amplitudes")
+    _finish(axes, labels, "\u03c9 \u00b7 dt", "Position error per radian, in amplitudes")
 
 
 def _costs(axes: Axes, rows: Rows) -> None:

@@ -15,7 +15,7 @@ __all__ = ["SCENES", "force_drift"]
 LONG = 400
 """Radians, or times of fall from height 1 at g = 1."""
 SCENES = {
-    "place": (Spring(0.0, 1.0, 1.0), (-9.0, -9.0, 9.0, 9.0)),
+    "spring": (Spring(0.0, 1.0, 1.0), (-9.0, -9.0, 9.0, 9.0)),
     "uniform": (Gravity(0.0, -1.0), (-9.0, -0.1, 9.0, 9.0)),
 }
 
@@ -30,7 +30,7 @@ def force_drift(integrator: str, kind: str, steps: int) -> float:
         box=box,
         tick_rate=float(steps),
         forces=(force,),
-        balls=Balls(position=[(0.0, 0.1 if kind == "place" else 1.0)], radius=0.1, mass=1.0),
+        balls=Balls(position=[(0.0, 0.1 if kind == "spring" else 1.0)], radius=0.1, mass=1.0),
     )
     world = World(scene, Model(integrator=integrator, contacts="overlap", broadphase="brute"))
     start = world.energy

@@ -24,6 +24,8 @@ MOVES = (0.0125, 0.025, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6)
 STEPS = (1, 2, 4, 8, 16, 32, 64, 128, 256)
 DRIFT_STEPS = (4, 8, 16, 32, 64)
 COUNTS = (10, 20, 40, 80, 300, 1_000, 10_000, 100_000)
+SEEDS = tuple(range(1, 13))
+"""Errors of `backtrack` are rare and large: two hits in one tick."""
 SINKING_SECONDS = 10.0
 
 
@@ -31,11 +33,12 @@ def jobs(effort: Effort, left_out: list[str]) -> list[Job]:
     """Errors per packing and integrator, costs per number of balls."""
     counts = COUNTS[:6] if effort.quick else COUNTS
     moves = MOVES[::2] if effort.quick else MOVES
+    seeds = effort.seeds if effort.quick else SEEDS
     return [
         *(
             Job(
                 f"errors of {contacts} at packing {packing:g}",
-                partial(_contacts, contacts, packing, moves, effort.seeds),
+                partial(_contacts, contacts, packing, moves, seeds),
             )
             for contacts in _core.CONTACTS
             for packing in PACKINGS
