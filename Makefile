@@ -31,9 +31,9 @@ lint: $(SETUP)
 bench: $(SETUP)
 	@$(BIN)/kuglice bench
 
-## make chart   all figures of the lab
+## make chart   all figures of the lab in out/chart, and the table that the planner reads
 chart: $(SETUP)
-	@$(BIN)/kuglice chart
+	@$(BIN)/kuglice chart --plan-table shared/kuglice/plan/measured.csv
 
 ## make core    rebuild the compiled module only
 core:
