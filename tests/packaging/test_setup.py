@@ -62,7 +62,7 @@ def machine(tmp_path: Path) -> Machine:
         pytest.param({"python3": HERE}, "a Rust toolchain", "rustup", id="no cargo"),
         pytest.param(
             {"python3": HERE, "cargo": "echo cargo 1.84.1"},
-            "cargo 1.85 or newer and found 'cargo 1.84.1'",
+            "cargo 1.88 or newer and found 'cargo 1.84.1'",
             "rustup update stable",
             id="old cargo",
         ),
