@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+from dataclasses import asdict
 from typing import Annotated
 
 import typer
 from rich.console import Console
 from rich.table import Table
 
+from kuglice.plan import expect
 from kuglice.plan import plan as choose
 from kuglice.scenes import find
 
@@ -31,7 +33,9 @@ def plan(
     found = find(scene)
     model = choose(found)
     if as_json:
-        print(json.dumps({"scene": scene, "balls": len(found.balls), **model.to_message()}, indent=2))
+        expected = asdict(expect(found, model))
+        figures = {"scene": scene, "balls": len(found.balls), **model.to_message(), "expected": expected}
+        print(json.dumps(figures, indent=2))
         return
     table = Table(title=f"{found.title or scene}: {model}", title_justify="left", show_header=False)
     table.add_column(style="bold", no_wrap=True)

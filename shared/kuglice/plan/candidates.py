@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 from kuglice import _core
 from kuglice.errors import ModelError
 from kuglice.model import Model
 from kuglice.plan.demand import VISUAL, demanded
-from kuglice.plan.expectation import Expectation, expect_in
+from kuglice.plan.expectation import Expectation, cost_ms, expect_in
 from kuglice.plan.forces import actions
 from kuglice.plan.situation import Situation
 from kuglice.scene import Scene
@@ -42,45 +41,41 @@ class Candidate:
 
 def candidates(scene: Scene, now: Situation) -> list[Candidate]:
     """All pairings with 1, 2, 4, ... substeps that the pins allow; ModelError if they allow none."""
-    pins = scene.model
-    refused: ModelError | None = None
     acting = actions(scene, now)
     found = []
-    for integrator, contacts in _pairings(scene):
-        for substeps in [pins.substeps] if pins.substeps else _powers_of_two():
-            parts = {"integrator": integrator, "contacts": contacts, "substeps": substeps} | _smallest_node(
-                scene
-            )
+    for model in _pairings(scene):
+        for substeps in [scene.model.substeps] if scene.model.substeps else _powers_of_two():
+            # A copy is not validated again: a power of two is as good as 1.
+            cut = model.model_copy(update={"substeps": substeps})
+            placed = _cheapest_broadphase(scene, now, cut)
+            found.append(Candidate(placed, expect_in(scene, now, acting, placed)))
+    return found
+
+
+def _pairings(scene: Scene) -> list[Model]:
+    """One model of each pairing that the core accepts."""
+    pins = scene.model
+    rest = pins.model_dump(include={"broadphase", "smallest_node", "substeps"}, exclude_none=True)
+    refused: ModelError | None = None
+    found = []
+    for contacts in [pins.contacts] if pins.contacts else _core.CONTACTS:
+        for integrator in [pins.integrator] if pins.integrator else _core.INTEGRATORS:
             try:
-                models = [Model(**parts, broadphase=each) for each in _broadphases(scene, now)]
+                found.append(Model(integrator=integrator, contacts=contacts, **rest))
             except ModelError as error:
                 refused = error
-                break
-            options = [Candidate(model, expect_in(scene, now, acting, model)) for model in models]
-            # The broadphase changes what a step costs, never what it gives.
-            found.append(min(options, key=lambda candidate: candidate.expected.cost_ms))
     if not found and refused is not None:
         raise refused
     return found
 
 
-def _pairings(scene: Scene) -> Iterator[tuple[str, str]]:
-    """Every pairing of names; those that the core refuses are dropped later."""
-    pins = scene.model
-    for contacts in [pins.contacts] if pins.contacts else _core.CONTACTS:
-        for integrator in [pins.integrator] if pins.integrator else _core.INTEGRATORS:
-            yield integrator, contacts
-
-
-def _broadphases(scene: Scene, now: Situation) -> list[str]:
+def _cheapest_broadphase(scene: Scene, now: Situation, model: Model) -> Model:
+    """It changes what a step costs, never what it gives. Where balls may be added, few can become many."""
     if scene.model.broadphase:
-        return [scene.model.broadphase]
-    # Where balls may be added, few can become many.
-    return [MANY] if now.open else list(_core.BROADPHASES)
-
-
-def _smallest_node(scene: Scene) -> dict[str, float]:
-    return {} if scene.model.smallest_node is None else {"smallest_node": scene.model.smallest_node}
+        return model
+    names = [MANY] if now.open else _core.BROADPHASES
+    able = [model.model_copy(update={"broadphase": name}) for name in names]
+    return min(able, key=lambda each: cost_ms(scene, now, each))
 
 
 def _powers_of_two() -> list[int]:

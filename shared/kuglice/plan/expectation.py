@@ -14,7 +14,7 @@ from kuglice.plan.forces import Action, actions
 from kuglice.plan.situation import Situation, situation
 from kuglice.scene import Scene
 
-__all__ = ["Expectation", "expect", "expect_in"]
+__all__ = ["Expectation", "cost_ms", "expect", "expect_in"]
 
 CONSERVATIVE = frozenset({"gravity", "attractor", "spring"})
 MINUTE = 60.0
@@ -49,7 +49,7 @@ def expect_in(scene: Scene, now: Situation, acting: Sequence[Action], model: Mod
     step = now.tick / model.substeps
     return Expectation(
         error=math.hypot(_contact_error(now, model, step), _force_error(now, acting, model, step)),
-        cost_ms=_cost_ms(scene, now, model, step),
+        cost_ms=cost_ms(scene, now, model),
         tunnels=model.contacts != "event" and now.share > MOST_MOVED * model.substeps,
         depth=measured.sinking(model.contacts) if now.pressed else 0.0,
         drift=_drift(scene, now, acting, model, step),
@@ -87,7 +87,9 @@ def _drift(scene: Scene, now: Situation, acting: Sequence[Action], model: Model,
     return total
 
 
-def _cost_ms(scene: Scene, now: Situation, model: Model, step: float) -> float:
+def cost_ms(scene: Scene, now: Situation, model: Model) -> float:
+    """Of a tick."""
+    step = now.tick / model.substeps
     each = measured.contacts_cost(model.contacts, model.broadphase, now.balls, now.rate * step)
     if scene.forces:
         each += measured.integrator_cost(model.integrator)

@@ -44,7 +44,7 @@ def _integrator(scene: Scene, chosen: Candidate, every: Sequence[Candidate]) -> 
     if not kinds:
         return "without forces all integrators move balls along the same lines."
     if set(kinds) <= {"gravity", "thrust"} and chosen.model.integrator in ("verlet", "rk4"):
-        return "exact under forces that do not change within a tick."
+        return f"exact under {'uniform gravity' if kinds == ['gravity'] else 'forces that hold for a tick'}."
     cheaper = [
         each
         for each in every

@@ -61,7 +61,8 @@ class Scene(BaseModel):
     allow_overlap: Flag = False
     model: ModelPins = ModelPins()
     accuracy: Accuracy = "visual"
-    """"visual", "faithful" or "exact", or the largest error of a position that is accepted, in radii."""
+    """"visual", "faithful" or "exact", or the largest error of a position that is accepted, in radii, when
+    the mean ball has collided once or a second has passed (see kuglice.plan.demand)."""
     budget_ms: Positive | None = None
     """Milliseconds that one tick may take."""
 
