@@ -21,7 +21,8 @@ def draw(rows: Rows) -> Figure:
         "What the planner knows",
         "Errors and costs from which plan(scene) picks the cheapest model that meets what a scene demands."
         " Left: packing 0.05 dotted, 0.30 solid, 0.60 dashed. Middle: a spring (solid), an orbit (dashed),"
-        " drag (dotted). Right: calm gas (dotted) and busy gas (solid).",
+        " drag (dotted). Right: calm gas (dotted) and busy gas (solid) with a loose"
+        " quadtree; triangles: brute force.",
         rows=1,
         columns=3,
         height=7.4,
@@ -59,7 +60,7 @@ def _forces(axes: Axes, rows: Rows) -> None:
 
 
 def _costs(axes: Axes, rows: Rows) -> None:
-    axes.set_title("Costs (loose quadtree; brute: triangles)")
+    axes.set_title("Costs")
     labels = []
     for contacts, colour in CONTACTS.items():
         found = where(rows, contacts=contacts, broadphase="loose_quadtree")

@@ -64,7 +64,11 @@ def _panel(axes: Axes, rows: Rows, title: str, label: str, logarithmic: bool) ->
     axes.set_xlim(low, high * (high / low) ** 0.42 if logarithmic else high + 0.42 * (high - low))
     bottom, top = axes.get_ylim()
     axes.set_ylim(bottom / 1.5, top * 1.5)
-    write_labels(axes, labels)
+    ends = sorted({label.x for label in labels})
+    # The curve that ends first has its neighbours on the right.
+    early = [label for label in labels if label.x == ends[0] and len(ends) > 1]
+    write_labels(axes, early, side="left")
+    write_labels(axes, [label for label in labels if label not in early])
 
 
 def _crossing(axes: Axes, rows: Rows) -> None:
@@ -79,6 +83,6 @@ def _crossing(axes: Axes, rows: Rows) -> None:
         return
     axes.axvline(place, color=PALE, linestyle=":", linewidth=1.2)
     axes.annotate(
-        f"brute force is best\nup to {place:.0f} balls", (place, 0.97), xycoords=("data", "axes fraction"),
-        xytext=(8, 0), textcoords="offset points", ha="left", va="top", fontsize=11, color=INK,
+        f"brute force is best\nup to {place:.0f} balls", (place, 0.03), xycoords=("data", "axes fraction"),
+        xytext=(8, 0), textcoords="offset points", ha="left", va="bottom", fontsize=11, color=INK,
     )  # fmt: skip

@@ -14,6 +14,8 @@ from kuglice.lab.stability_maps.oscillator import BOUNDARY, STEPS
 
 __all__ = ["draw"]
 
+OFFSET = {"euler": (10, -4), "symplectic_euler": (0, 10), "verlet": (-6, -22), "rk4": (0, 10)}
+"""Of names from their curves, in points."""
 HIGHEST = 1e12
 """Energies beyond are cut: they say no more than that it exploded."""
 
@@ -77,7 +79,7 @@ def _oscillator(axes: Axes, rows: Rows) -> None:
         near = int(np.argmin(np.abs(np.array(x) - places[method])))
         axes.annotate(
             method.replace("_", " "), (x[near], clipped[near]),
-            xytext=(10, -4) if method == "euler" else (0, 10),
+            xytext=OFFSET[method],
             textcoords="offset points", color=INTEGRATOR[method], fontsize=11.5, fontweight="bold",
             ha="left" if method == "euler" else "center",
         )  # fmt: skip

@@ -16,10 +16,16 @@ from kuglice.lab.work_precision.front import front
 __all__ = ["draw"]
 
 PANELS = {
-    "position_error": "Position error after one collision per ball, in radii (RMS)",
+    "position_error": "Position error after one collision per ball or 1 s, in radii (RMS)",
     "energy_drift": "Relative drift of energy in the long run (largest)",
     "deepest_overlap": "Deepest overlap in the long run, in radii",
     "missed": "Share of collisions missed",
+}
+REASONS = {
+    "position_error": "No method could follow this scene.",
+    "energy_drift": "No panel for energy: it is not conserved here.",
+    "deepest_overlap": "No panel for overlaps.",
+    "missed": "No panel for collisions: there are none.",
 }
 FEW = 6
 """Curves up to here are labelled one by one."""
@@ -29,6 +35,9 @@ PEER_MARKERS = "DPX*"
 def draw(title: str, rows: Rows) -> Figure:
     """One curve per method, one point per length of tick."""
     shown = {name: label for name, label in PANELS.items() if any(name in row for row in rows)}
+    if "missed" not in shown:
+        # Nothing collides, so what overlaps is a planet that its integrator has lost.
+        shown.pop("deepest_overlap", None)
     lines = (len(shown) + 1) // 2
     rates = sorted({int(row["tick_rate"]) for row in rows})
     figure, panels = sheet(
@@ -43,7 +52,9 @@ def draw(title: str, rows: Rows) -> Figure:
     for panel, (name, label) in zip(panels, shown.items(), strict=False):
         _panel(panel, name, label, rows)
     for panel in panels[len(shown) :]:
-        panel.set_visible(False)
+        panel.axis("off")
+        missing = [REASONS[name] for name in PANELS if name not in shown]
+        panel.text(0.5, 0.5, "\n".join(missing), ha="center", va="center", color=PALE, fontsize=13)
     if not _few(rows):
         _key(figure, rows)
     return figure
