@@ -35,6 +35,11 @@ bench: $(SETUP)
 chart: $(SETUP)
 	@$(BIN)/kuglice chart --plan-table shared/kuglice/plan/measured.csv
 
+## make rapier  build Rapier as one more peer of bench and chart
+rapier: $(SETUP)
+	cargo build --release --quiet --manifest-path shared/kuglice/lab/peers/rapier/Cargo.toml
+	cp shared/kuglice/lab/peers/rapier/target/release/lib_rapier.so shared/kuglice/lab/peers/_rapier.abi3.so
+
 ## make core    rebuild the compiled module only
 core:
 	cargo build --release --quiet $(WORKSPACE) -p kuglice-python
@@ -50,4 +55,4 @@ clean:
 	rm -rf .venv out build dist shared/core/target shared/kuglice/_core*.so shared/*.egg-info *.egg-info
 	find . -name __pycache__ -prune -exec rm -rf {} + ; rm -rf .mypy_cache .ruff_cache .pytest_cache .hypothesis
 
-.PHONY: help setup demo test lint bench chart core golden clean
+.PHONY: help setup demo test lint bench chart rapier core golden clean

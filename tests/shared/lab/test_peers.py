@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
 
 import kuglice as kg
@@ -18,7 +17,7 @@ def make(request):
         try:
             return PEERS[request.param](scene)
         except CannotRunError as reason:
-            if "not installed" in str(reason):
+            if "not installed" in str(reason) or "not built" in str(reason):
                 pytest.skip(str(reason))
             raise
 
@@ -28,8 +27,9 @@ def make(request):
 def test_starts_from_the_same_state(make):
     scene = kg.scenes.gas(n=30)
     peer = make(scene)
-    assert np.array_equal(peer.position, scene.balls.position)
-    assert np.array_equal(peer.velocity, scene.balls.velocity)
+    # Rapier computes in f32.
+    assert peer.position == pytest.approx(scene.balls.position, rel=1e-6)
+    assert peer.velocity == pytest.approx(scene.balls.velocity, rel=1e-6)
 
 
 def test_moves_a_lone_ball_as_this_package_does(make):
@@ -42,7 +42,7 @@ def test_moves_a_lone_ball_as_this_package_does(make):
     peer.run(30)
     world.run(30)
     assert peer.position == pytest.approx(world.position, rel=1e-2)
-    assert peer.velocity == pytest.approx(world.velocity, rel=1e-9)
+    assert peer.velocity == pytest.approx(world.velocity, rel=1e-5)
 
 
 def test_keeps_a_gas_in_its_box_and_most_of_its_energy(make):
@@ -50,8 +50,8 @@ def test_keeps_a_gas_in_its_box_and_most_of_its_energy(make):
     peer = make(scene)
     start = energy(scene, peer)
     peer.run(120)
-    # All pairs of a tick at once, as numpy wants it, loses what three balls in touch have.
-    assert energy(scene, peer) == pytest.approx(start, rel=0.3)
+    # All pairs of a tick at once, as numpy wants it, and soft constraints, as in Rapier, lose what many have.
+    assert 0.5 * start < energy(scene, peer) < 1.05 * start
     left, bottom, right, top = scene.box
     assert (peer.position > (left, bottom)).all()
     assert (peer.position < (right, top)).all()

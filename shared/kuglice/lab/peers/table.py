@@ -36,6 +36,7 @@ PEERS: dict[str, Peer] = {
     for peer in (
         Peer("pymunk", "pymunk", "Pymunk"),
         Peer("pymunk, 30 iterations", "pymunk", "Pymunk", (("iterations", 30),)),
+        Peer("rapier2d", "rapier", "Rapier"),
         Peer("numpy + cKDTree", "ckdtree", "KDTree"),
         Peer("numba grid", "numba_grid", "NumbaGrid"),
     )

@@ -32,7 +32,7 @@ GRAIN = 1 / 30
 TIMED_SECONDS = 2.0
 SEEN_FINER = 4
 """Parts of a tick in which collisions are counted: each is from the right state, so few will do."""
-RAN_PEERS = ("pymunk", "pymunk, 30 iterations")
+RAN_PEERS = ("pymunk", "pymunk, 30 iterations", "rapier2d")
 """The others are `overlap` in other clothes."""
 
 
