@@ -53,7 +53,7 @@ def this_machine() -> Machine:
         system=f"{platform.system()} {platform.machine()}",
         versions=versions,
         flags=f"1 thread, f64, release build, RUSTFLAGS={os.environ.get('RUSTFLAGS') or 'none'}",
-        date=datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
+        date=f"{datetime.now(UTC):%Y-%m-%d %H:%M} UTC, load {_load()}",
     )
 
 
@@ -67,3 +67,11 @@ def _processor() -> str:
     name = facts.get("model name") or platform.processor() or platform.machine()
     clock = facts.get("cpu MHz")
     return f"{name} at {float(clock) / 1000:.1f} GHz" if clock and "GHz" not in name else name
+
+
+def _load() -> str:
+    """How many others ran at the time: times on a busy machine are upper bounds."""
+    try:
+        return f"{os.getloadavg()[0]:.1f}"
+    except OSError:
+        return "unknown"
