@@ -19,10 +19,9 @@ def draw(rows: Rows) -> Figure:
     """Errors of contacts, errors of integrators, costs of ball-steps."""
     figure, panels = sheet(
         "What the planner knows",
-        "Errors and costs from which plan(scene) picks the cheapest model that meets what a scene demands."
-        " Left: packing 0.05 dotted, 0.30 solid, 0.60 dashed. Middle: a spring (solid), an orbit (dashed),"
-        " drag (dotted). Right: calm gas (dotted) and busy gas (solid) with a loose"
-        " quadtree; triangles: brute force.",
+        "Errors and costs from which plan(scene) picks the cheapest model that will do. Left: packing 0.05 dotted,"
+        " 0.30 solid, 0.60 dashed. Middle: a spring (solid), an orbit (dashed), drag (dotted). Right: calm gas"
+        " (dotted) and busy gas (solid); triangles: brute force.",
         rows=1,
         columns=3,
         height=7.4,
