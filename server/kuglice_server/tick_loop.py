@@ -12,9 +12,10 @@ from typing import Any
 import zenoh
 
 from kuglice import World
-from kuglice.errors import InputError, ProtocolError
+from kuglice.errors import InputError, ProtocolError, StepError
 from kuglice.inputs import Input, pack
 from kuglice.protocol import Keys, StretchedTick
+from kuglice_server.attempts import attempts
 from kuglice_server.history import History, KeptSnapshot
 from kuglice_server.intake import Intake
 from kuglice_server.players import Players
@@ -99,19 +100,23 @@ class TickLoop:
             self._intake.receive(str(sample.key_expr), data, world=self._world)
 
     def _step(self, authored: list[Input], inputs: list[Input]) -> bytes:
-        records = _packed(authored + inputs)
-        try:
-            self._world.step(records)
-        except InputError:
-            # Every input was checked when it came in; if the step refuses one all the same, the world goes on
-            # without.
-            log.exception(
-                "tick %d: the step refused its inputs, %d are left out", self._world.tick, len(inputs)
-            )
-            self._counters["left out"] += len(inputs)
-            records = _packed(authored)
-            self._world.step(records)
-        return records
+        failed: Exception | None = None
+        for tried, loss in attempts(self._world, authored, inputs):
+            records = _packed(tried)
+            try:
+                self._world.step(records)
+            except (InputError, StepError) as error:
+                log.error("%s", error)
+                failed = error
+                continue
+            if failed is not None:
+                log.error("tick %d was made after all: %s", self._world.tick - 1, loss)
+                self._counters["left out"] += len(inputs)
+                self._counters["released"] += len(tried) - len(authored)
+            return records
+        raise StepError(
+            f"tick {self._world.tick} cannot be made, not even without any input: {failed}"
+        ) from failed
 
     def _guarded(self, publish: Callable[[], None]) -> None:
         try:
