@@ -113,6 +113,10 @@ impl Law {
         let (p2, path2) = paths.at(balls, second, time);
         let along = normal(p1, p2);
         let length = along.length();
+        let support = Support::new(first, Some(second), along * (1.0 / length));
+        if paths.supports.hold(&support) {
+            return false;
+        }
         let (v1, v2) = (
             path1 + paths.ahead(first, time),
             path2 + paths.ahead(second, time),
@@ -151,14 +155,8 @@ impl Law {
             paths.deferred.push((first, v1 - w1));
             paths.deferred.push((second, v2 - w2));
         }
-        let support = (!bounces).then(|| Support::new(first, Some(second), along * (1.0 / length)));
-        paths.strike(
-            balls,
-            time,
-            &[(first, p1, w1), (second, p2, w2)],
-            support,
-            changed,
-        );
+        let struck = [(first, p1, w1), (second, p2, w2)];
+        paths.strike(balls, time, &struck, (!bounces).then_some(support), changed);
         approach > 0.0
     }
 
@@ -172,6 +170,10 @@ impl Law {
         time: f64,
         changed: &mut Vec<usize>,
     ) -> bool {
+        let support = Support::new(index, None, -wall.inward);
+        if paths.supports.hold(&support) {
+            return false;
+        }
         let (place, path) = paths.at(balls, index, time);
         let velocity = path + paths.ahead(index, time);
         let approach = -velocity.dot(wall.inward);
@@ -190,14 +192,11 @@ impl Law {
         };
         let (after, support) = match self.fate(&meeting, paths.motion) {
             Fate::Bounce(restitution) => (wall.with_normal(velocity, restitution * approach), None),
-            Fate::Rest => (
-                wall.with_normal(velocity, 0.0),
-                Some(Support::new(index, None, -wall.inward)),
-            ),
+            Fate::Rest => (wall.with_normal(velocity, 0.0), Some(support)),
             Fate::Hold => {
                 let after = wall.with_normal(velocity, 0.0);
                 paths.deferred.push((index, velocity - after));
-                (after, Some(Support::new(index, None, -wall.inward)))
+                (after, Some(support))
             }
             Fate::Pass => return false,
         };

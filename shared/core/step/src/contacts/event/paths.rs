@@ -40,7 +40,7 @@ pub(super) struct Paths {
     pub(super) touched: Vec<bool>,
     /// How far apart a pair may be to count as touching.
     margin: f64,
-    supports: Supports,
+    pub(super) supports: Supports,
     /// Balls whose accelerations a strike may change; scratch.
     loose: Vec<usize>,
     /// Velocities that balls get back at the end of the substep: see [`super::contact`].

@@ -79,6 +79,11 @@ impl Supports {
         self.all.iter().any(|support| support.involves(index))
     }
 
+    /// Whether this contact bears already: then only rounding can press it, until one of its balls is struck.
+    pub(super) fn hold(&self, support: &Support) -> bool {
+        self.all.iter().any(|other| other.is_same(support))
+    }
+
     /// Appends every ball that has a contact, once.
     pub(super) fn balls(&self, found: &mut Vec<usize>) {
         for support in &self.all {
