@@ -43,26 +43,13 @@ def candidates(scene: Scene, now: Situation) -> list[Candidate]:
     """All pairings with 1, 2, 4, ... substeps that the pins allow; ModelError if they allow none."""
     acting = actions(scene, now)
     found = []
-    pairings = _pairings(scene)
-    for model in pairings:
-        if len(pairings) > 1 and _may_stall(scene, now, model):
-            continue
+    for model in _pairings(scene):
         for substeps in [scene.model.substeps] if scene.model.substeps else _powers_of_two():
             # A copy is not validated again: a power of two is as good as 1.
             cut = model.model_copy(update={"substeps": substeps})
             placed = _cheapest_broadphase(scene, now, cut)
             found.append(Candidate(placed, expect_in(scene, now, acting, placed)))
     return found
-
-
-def _may_stall(scene: Scene, now: Situation, model: Model) -> bool:
-    """What is pressed for long can collide more often in a tick than `event` is allowed to: not for looks alone."""
-    return (
-        model.contacts == "event"
-        and scene.model.contacts is None
-        and now.steered
-        and demanded(scene) >= VISUAL
-    )
 
 
 def _pairings(scene: Scene) -> list[Model]:

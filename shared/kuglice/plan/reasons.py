@@ -18,7 +18,7 @@ def reasons(scene: Scene, now: Situation, chosen: Candidate, every: Sequence[Can
     pins = scene.model
     why = {
         "integrator": _integrator(scene, chosen, every),
-        "contacts": _contacts(scene, now, chosen, every),
+        "contacts": _contacts(scene, chosen, every),
         "substeps": _substeps(scene, now, chosen, every),
         "broadphase": _broadphase(now, model.broadphase),
     }
@@ -66,7 +66,7 @@ def _integrator(scene: Scene, chosen: Candidate, every: Sequence[Candidate]) -> 
     return said + "."
 
 
-def _contacts(scene: Scene, now: Situation, chosen: Candidate, every: Sequence[Candidate]) -> str:
+def _contacts(scene: Scene, chosen: Candidate, every: Sequence[Candidate]) -> str:
     name, demand = chosen.model.contacts, demanded(scene)
     cheaper = [each for each in every if each.expected.cost_ms < chosen.expected.cost_ms]
     best: dict[str, Candidate] = {}
@@ -74,12 +74,9 @@ def _contacts(scene: Scene, now: Situation, chosen: Candidate, every: Sequence[C
         other = each.model.contacts
         if other != name and (other not in best or each.expected.error < best[other].expected.error):
             best[other] = each
-    said = "; ".join(_refused(each, scene) for each in best.values())
     if not best:
-        said = f"the cheapest treatment, and good enough for {demand:g} radii"
-    if now.steered and name != "event":
-        said += "; clients can press balls together, where event may need very many collisions"
-    return said + "."
+        return f"the cheapest treatment, and good enough for {demand:g} radii."
+    return "; ".join(_refused(each, scene) for each in best.values()) + "."
 
 
 def _refused(each: Candidate, scene: Scene) -> str:

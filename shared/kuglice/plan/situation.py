@@ -46,8 +46,6 @@ class Situation:
     """Whether balls weigh on each other: a force drives them together, into more than half a layer."""
     fall_rate: float
     """1 / seconds of a fall from the mean height: sqrt(g / 2 h); 0 without gravity."""
-    steered: bool
-    """Whether held inputs can press balls together, against walls too, for as long as a client likes."""
     open: bool
     """Whether balls can be added."""
 
@@ -86,7 +84,6 @@ def situation(scene: Scene) -> Situation:
         window=min(LONGEST, 1.0 / rate) if rate > 0.0 else LONGEST,
         pressed=_pressed(scene, radius),
         fall_rate=_fall_rate(scene, fall),
-        steered=_steered(scene),
         open=scene.limits.spawn is not None or scene.players is not None,
     )
 
@@ -129,11 +126,6 @@ def _fall_rate(scene: Scene, fall: float) -> float:
     """From g h = `fall`: sqrt(g / 2 h) = g / sqrt(2 g h)."""
     pull = sum(math.hypot(force.x, force.y) for force in scene.forces if force.kind == "gravity")
     return pull / math.sqrt(2.0 * fall) if fall > 0.0 else 0.0
-
-
-def _steered(scene: Scene) -> bool:
-    limits = {"thrust": scene.limits.thrust, "attract": scene.limits.attract}
-    return any(limits.get(force.kind) for force in scene.forces)
 
 
 def _pressed(scene: Scene, radius: Floats) -> bool:

@@ -61,21 +61,6 @@ class TestCrowds:
         assert '"faithful"' in reasons
 
 
-class TestInputs:
-    def test_what_clients_can_press_together_gets_no_event_contacts_for_looks(self):
-        arena = kg.scenes.arena()
-        assert kg.plan(arena).contacts != "event"
-        assert "press" in " ".join(kg.plan(arena).reasons)
-
-    def test_but_gets_them_for_accuracy_or_when_pinned(self):
-        arena = kg.scenes.arena()
-        assert kg.plan(arena.model_copy(update={"accuracy": "faithful"})).contacts == "event"
-        assert kg.plan(pinned(arena, contacts="event")).contacts == "event"
-
-    def test_balls_that_inputs_make_fast_do_not_tunnel(self):
-        assert not expect(kg.scenes.arena(), kg.plan(kg.scenes.arena())).tunnels
-
-
 class TestBudget:
     def test_is_kept(self):
         scene = gas(budget_ms=1000.0)
