@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from kuglice import World
-from kuglice.errors import InputError
+from kuglice.errors import InputError, StepError
 from kuglice.protocol import Stretch, StretchedTick
 
 __all__ = ["Confirmed", "Follower"]
@@ -79,7 +79,7 @@ class Follower:
                 return
             try:
                 self.world.step(entry.inputs)
-            except InputError as error:
+            except (InputError, StepError) as error:
                 # A damaged tick leaves a gap, which the server's history fills.
                 self.unusable += 1
                 log.warning("tick %d: %s", entry.tick, error)

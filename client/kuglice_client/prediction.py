@@ -11,6 +11,7 @@ import numpy as np
 
 from kuglice import World
 from kuglice._core import INPUT_BYTES
+from kuglice.errors import StepError
 from kuglice.inputs import Input, pack
 from kuglice.protocol import StretchedTick
 
@@ -28,8 +29,10 @@ class Prediction:
         self.previous = confirmed.clone()
         self._limit = limit
         self._own: dict[int, list[Input]] = {}
+        self._promised: dict[int, list[Input]] = {}
         self._used: dict[int, bytes] = {}
         self._wrong = False
+        self._stuck = False
         self.rollbacks = 0
         self.deepest_rollback = 0
         self.ticks_rerun = 0
@@ -42,6 +45,8 @@ class Prediction:
 
     def settle(self, given: Input, planned: int, tick: int | None) -> None:
         """The server said in which tick an own input acts (None: in none, it was refused)."""
+        if tick is not None:
+            self._promised.setdefault(tick, []).append(given)
         if tick == planned:
             return
         if self._forget(given, planned) and tick is not None:
@@ -53,9 +58,12 @@ class Prediction:
     def confirm(self, entry: StretchedTick) -> None:
         """The authoritative inputs of a tick.
 
-        Own ones that are neither in them nor answered yet wait for the next.
+        Own ones that are neither in them nor answered yet wait for the next. One that was promised for this
+        tick is not waited for: the server could not make the tick with it.
         """
-        mine = self._own.pop(entry.tick, [])
+        promised = self._promised.get(entry.tick, [])
+        self._promised = {tick: given for tick, given in self._promised.items() if tick > entry.tick}
+        mine = [given for given in self._own.pop(entry.tick, []) if given not in promised]
         told = {entry.inputs[at : at + INPUT_BYTES] for at in range(0, len(entry.inputs), INPUT_BYTES)}
         left = [given for given in mine if pack([given]) not in told]
         if left:
@@ -68,6 +76,7 @@ class Prediction:
         """Run forward again from the confirmed world if the prediction was wrong; whether that was so."""
         wrong, reached = self._wrong, self.world.tick
         self._wrong = False
+        self._stuck = self._stuck and reached >= confirmed.tick and not wrong
         if reached < confirmed.tick:
             # Nothing was predicted beyond this: no guess was wrong, the stream is just ahead of us.
             self.previous.copy_from(self.world if reached == confirmed.tick - 1 else confirmed)
@@ -92,7 +101,7 @@ class Prediction:
 
     def may_step(self, confirmed: World) -> bool:
         """Whether one more tick may be predicted."""
-        if self.world.tick - confirmed.tick < self._limit:
+        if not self._stuck and self.world.tick - confirmed.tick < self._limit:
             return True
         self.held_back += 1
         return False
@@ -107,7 +116,12 @@ class Prediction:
             inputs = pack(sorted(self._own.get(now, []), key=lambda one: one.sequence))
             if now == tick - 1:
                 self.previous.copy_from(self.world)
-            self.world.step(inputs)
+            try:
+                self.world.step(inputs)
+            except StepError:
+                # The server cannot make this tick either; what it gives up so that it can, only it knows.
+                self._stuck = True
+                return
             self._used[now] = inputs
 
     def _forget(self, given: Input, planned: int) -> bool:
