@@ -79,8 +79,10 @@ def test_both_sides_at_the_same_time():
 
     # Equal balls swap velocities: both outer ones turn round, the middle one is still at the end.
     assert after("event") == [-1.0, 0.0, 1.0]
-    # One pass by id leaves the left ball standing, and the middle one is through it before the next tick.
-    assert after("overlap") == after("backtrack") == [0.0, -1.0, 1.0]
+    # One pass by id leaves the left ball standing, and the middle one is through it before the next tick ...
+    assert after("overlap") == [0.0, -1.0, 1.0]
+    # ... unless the pair is judged at the beginning of that tick, where it still approaches.
+    assert after("backtrack") == [-1.0, 0.0, 1.0]
 
 
 @given(data=st.data(), count=st.integers(2, 8))

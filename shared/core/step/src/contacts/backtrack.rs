@@ -70,8 +70,8 @@ fn collide(balls: &mut Balls, first: usize, second: usize, shares: Shares, dt: f
     let Some(back) = since(p2 - p1, v2 - v1, balls.radius[first] + balls.radius[second]) else {
         return false;
     };
-    // A pair that overlapped before the tick began has no contact time in it: it is judged as it is.
-    let back = if back <= dt { back } else { 0.0 };
+    // A pair that overlapped before the tick began is taken back to its beginning, and judged there.
+    let back = back.min(dt);
     let along = normal(p1 - v1 * back, p2 - v2 * back);
     let (u1, u2) = (v1, v2);
     if !exchange(along, shares, &mut v1, &mut v2) {
