@@ -206,6 +206,40 @@ def test_players_get_the_roomiest_spawn_point_until_the_scene_is_full():
         inputs.join(SCENE, world, 2)
 
 
+def crowd(blocking, **rules):
+    """The scene with balls of radius 1 at these places."""
+    balls = kg.Balls(position=blocking, radius=1, mass=1)
+    players = SCENE.players.model_copy(update=rules)
+    limits = SCENE.limits.model_copy(update={"max_balls": len(blocking) + 1})
+    return kg.World(SCENE.model_copy(update={"balls": balls, "players": players, "limits": limits}))
+
+
+@given(st.lists(st.tuples(st.floats(1, 19), st.floats(1, 9)), max_size=6))
+def test_a_player_appears_inside_no_ball_while_there_is_room(others):
+    # Whatever else there is: both spawn points are blocked, and 8 balls leave room in a box of 20 by 10.
+    world = crowd([(2, 2), (18, 8), *others])
+    joined = inputs.join(world.scene, world, 1)
+    assert inputs.join(world.scene, world, 1) == joined
+    assert 0.5 <= joined.x <= 19.5
+    assert 0.5 <= joined.y <= 9.5
+    for x, y in world.position:
+        assert math.hypot(joined.x - x, joined.y - y) >= 1.5 - 1e-12
+
+
+def test_a_player_without_room_at_the_spawn_points_appears_close_to_one():
+    world = crowd([(2, 2), (18, 8)])
+    joined = inputs.join(world.scene, world, 1)
+    assert min(math.hypot(joined.x - x, joined.y - y) for x, y in world.position) < 1.5 + 0.25
+
+
+def test_in_a_full_box_a_player_gets_the_roomiest_spawn_point():
+    world = crowd(
+        [(1 + 2 * i, 1 + 2 * j) for i in range(10) for j in range(5)], spawn_points=[(1, 1), (4, 4)]
+    )
+    joined = inputs.join(world.scene, world, 1)
+    assert (joined.x, joined.y) == (4.0, 4.0)
+
+
 def test_a_scene_without_player_rules_gives_no_ball():
     world = kg.World(kg.scenes.cradle())
     world.step([inputs.join(world.scene, world, 4)])
