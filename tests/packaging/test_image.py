@@ -10,6 +10,7 @@ import typer.main
 from ruamel.yaml import YAML
 
 from kuglice.cli.app import build
+from kuglice_client.bots import BOTS
 
 ROOT = Path(__file__).resolve().parents[2]
 Run = Callable[..., str]
@@ -65,11 +66,17 @@ def test_every_service_of_ours_says_a_command_that_the_command_line_understands(
     group = typer.main.get_command(build())
     ours = {name: service for name, service in services().items() if service["image"] == "kuglice"}
     assert sorted(ours) == ["client-1", "client-2", "server"]
+    players = []
     for service in ours.values():
         name, *arguments = service["command"]
-        command = group.commands[name]
         # Parsed and checked to the last option, but not run.
-        assert list(command.make_context(name, list(arguments)).params["connect"]) == ["tcp/router:7447"]
+        given = group.commands[name].make_context(name, list(arguments)).params
+        assert list(given["connect"]) == ["tcp/router:7447"]
+        if name == "client":
+            players.append((given["name"], given["bot"]))
+    names, bots = zip(*players, strict=True)
+    assert len(set(names)) == len(players)
+    assert set(bots) <= set(BOTS)
 
 
 def test_router_and_sessions_are_of_one_version() -> None:
