@@ -6,7 +6,7 @@ import pytest
 
 import kuglice as kg
 from kuglice.replay import Recorder, Replay, difference
-from kuglice.replay.format import FRAME, MAGIC
+from kuglice.replay.format import FRAME, MAGIC, State, Tick, read_records, write_record
 
 SCENE = kg.scenes.arena(players=2, balls=60)
 
@@ -101,10 +101,45 @@ def test_the_final_state_names_the_balls_if_no_other_does(path):
     assert 7 in result.mismatch.balls
 
 
+def test_unless_told_states_are_close_enough_to_name_the_balls_before_chaos_spreads(path):
+    record(path, ticks=90, disturb=25)
+    result = Replay.load(path).verify()
+    assert result.mismatch.tick == 26
+    assert result.mismatch.difference.tick == 30
+    assert result.mismatch.balls == (7,)
+    assert "known from the first recorded state after it: at tick 30 ball 7 differs" in str(result)
+
+
+def test_states_stay_below_a_bound_of_bytes_per_second(path):
+    world = kg.World(kg.scenes.gas(n=3000))
+    with Recorder(path, world) as recorder:
+        for _ in range(120):
+            world.step()
+            recorder.add()
+    states = [each for each in read_records(path) if isinstance(each, State)]
+    assert [each.tick for each in states] == [110, 120]  # the last one because the recording ends there
+    assert len(states[0].data) <= 110 / 60 * 64 * 1024
+
+
+def test_a_wrong_hash_is_told_from_a_world_that_differs(path):
+    record(path, ticks=20)
+    records = list(read_records(path))
+    with path.open("wb") as file:
+        file.write(MAGIC)
+        for each in records:
+            wrong = isinstance(each, Tick) and each.tick == 4
+            write_record(file, each.model_copy(update={"hash": each.hash ^ 1}) if wrong else each)
+    result = Replay.load(path).verify()
+    assert result.mismatch.tick == 5
+    assert result.mismatch.only_hash
+    assert result.mismatch.balls == ()
+    assert "the hash in the file is wrong, no ball differs" in str(result)
+
+
 def test_a_recording_that_was_cut_off_loses_its_last_record_only(path):
     world = kg.World(SCENE)
     recorder = Recorder(path, world)
-    for _ in range(20):
+    for _ in range(25):
         world.step()
         recorder.add()
     # Neither closed nor collected: what a crash leaves behind is what is in the file now.
@@ -112,7 +147,7 @@ def test_a_recording_that_was_cut_off_loses_its_last_record_only(path):
     path.write_bytes(data[:-3])
     replay = Replay.load(path)
     assert not replay.complete
-    assert len(replay) == 19
+    assert len(replay) == 24
     result = replay.verify()
     assert result.ok
     assert "cut off" in str(result)

@@ -91,10 +91,12 @@ class Replay:
         if wrong is None:
             return Verification(len(self), hashes, self.complete, None)
         recorded = self._states.get(world.tick)
-        differs = None
+        mismatch = Mismatch(*wrong, None)
         if recorded is not None:
-            differs = difference(World.restore(self.scene, recorded, self.model), world)
-        return Verification(wrong[0] - self.start, hashes, self.complete, Mismatch(*wrong, differs))
+            expected_world = World.restore(self.scene, recorded, self.model)
+            equal = expected_world.state_hash == world.state_hash
+            mismatch = Mismatch(*wrong, difference(expected_world, world), only_hash=equal)
+        return Verification(wrong[0] - self.start, hashes, self.complete, mismatch)
 
     def _hash(self, tick: int) -> int | None:
         if tick == self.start:

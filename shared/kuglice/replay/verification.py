@@ -14,11 +14,13 @@ class Mismatch:
     """The first hash that came out differently."""
 
     tick: int
-    """State(tick) differs; the states at the hashes before are equal."""
+    """The first differing hash is that of state(tick); the states at the hashes before are equal."""
     expected: int
     found: int
     difference: Difference | None
     """At the first recorded state from then on; None if the recording holds none."""
+    only_hash: bool = False
+    """That recorded state is equal in every bit: not the world differs but the hash in the file is wrong."""
 
     @property
     def balls(self) -> tuple[int, ...]:
@@ -29,7 +31,14 @@ class Mismatch:
         text = f"tick {self.tick}: hash {self.found:016x} instead of {self.expected:016x}"
         if self.difference is None:
             return f"{text}; no state is recorded from there on that would name the balls"
-        return f"{text}; {self.difference}"
+        if self.only_hash:
+            return (
+                f"{text}; the recorded state at tick {self.difference.tick} is equal in every bit:"
+                " the hash in the file is wrong, no ball differs"
+            )
+        if self.difference.tick == self.tick:
+            return f"{text}; {self.difference}"
+        return f"{text}; known from the first recorded state after it: {self.difference}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,5 +59,7 @@ class Verification:
     def __str__(self) -> str:
         if self.mismatch is not None:
             return f"different from {self.mismatch}"
-        cut = "" if self.complete else "; the recording was cut off there"
-        return f"equal: {self.ticks} ticks, {self.hashes} hashes{cut}"
+        counted = f"{self.ticks} ticks, {self.hashes} hashes"
+        if not self.complete:
+            return f"equal as far as it goes, but not complete: the recording was cut off after {counted}"
+        return f"equal: {counted}"
