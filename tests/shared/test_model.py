@@ -63,8 +63,8 @@ def test_pins_win_and_are_said():
 
 
 def test_a_pin_that_is_not_registered_is_refused():
-    with pytest.raises(kg.errors.ModelError, match="integrator = 'euclid'"):
-        kg.plan(scene(model=kg.ModelPins(integrator="euclid")))
+    with pytest.raises(kg.errors.SceneError, match="integrator = 'euclid': must be one of euler"):
+        kg.ModelPins(integrator="euclid")
 
 
 @pytest.mark.parametrize(

@@ -122,6 +122,46 @@ def test_wrong_files_are_refused(tmp_path, text, told):
     assert str(caught.value).startswith(str(path))
 
 
+HEAD = "box = [0, 0, 20, 10]\n"
+RANDOM = HEAD + '[[groups]]\nlayout = "random"\ncount = 4\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (HEAD + '[model]\nintegrator = "rk5"', "model.integrator = 'rk5': must be one of euler, "),
+        (HEAD + '[model]\ncontacts = ""', "model.contacts = '': must be one of "),
+        (RANDOM + "radius = -1", "groups[0].radius = -1: must be greater than 0"),
+        (RANDOM + 'radius = "x"', "groups[0].radius = 'x': must be a valid number"),
+        (RANDOM + "radius = [1, -2]", "groups[0].radius[1] = -2: must be greater than 0"),
+        (RANDOM + "radius = [1]", "groups[0].radius[1]: missing"),
+        (RANDOM + "radius = [1, 2, 3]", "groups[0].radius = [1, 2, 3]: must have at most 2 items, not 3"),
+        (RANDOM + "radius = 0.5\nsped = 1", "groups[0].sped = 1: no such key"),
+        (
+            HEAD + '[[groups]]\nlayout = "rndom"',
+            "groups[0].layout = 'rndom': must be one of random, lattice, triangle, listed;"
+            " did you mean random?",
+        ),
+        (HEAD + "[[groups]]\ncount = 3", "groups[0].layout: missing, must be one of random, lattice"),
+        (
+            HEAD + '[[forces]]\nkind = "gravty"\nx = 0\ny = 1',
+            "forces[0].kind = 'gravty': must be one of gravity, drag, attractor, spring, thrust, attract;"
+            " did you mean gravity?",
+        ),
+        (HEAD + "[[forces]]\nkind = 3", "forces[0].kind = 3: must be one of gravity"),
+        (HEAD + "[[forces]]\nx = 3", "forces[0].kind: missing, must be one of gravity"),
+        (HEAD + "forces = [3]", "forces[0] = 3: must be a table"),
+        (HEAD + "[limits]\nkik = 3", "limits.kik = 3: no such key"),
+        ("box = 3", "box = 3: must be an array"),
+    ],
+)
+def test_one_mistake_is_one_sentence_in_the_words_of_the_file(tmp_path, text, told):
+    path = write(tmp_path, text)
+    with pytest.raises(kg.errors.SceneError) as caught:
+        kg.Scene.load(path)
+    assert str(caught.value).startswith(f"{path}: {told}")
+
+
 def test_a_file_that_is_not_there_or_not_text_is_refused(tmp_path):
     with pytest.raises(kg.errors.SceneError, match="cannot be read: No such file"):
         kg.Scene.load(tmp_path / "no.toml")

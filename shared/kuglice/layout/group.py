@@ -10,7 +10,7 @@ from pydantic import AllowInfNan, BaseModel, ConfigDict, Field, Strict, model_va
 
 from kuglice.balls import PI, Balls
 from kuglice.layout.stream import DIRECTION, RADIUS, RandomStream, directions
-from kuglice.schema.numbers import NonNegative, Point, Positive, Whole
+from kuglice.schema.numbers import NonNegative, OneOrTwo, Point, Positive, Whole
 from kuglice.schema.problems import Problem, refuse
 
 __all__ = ["MOST_BALLS", "Floats", "Placement"]
@@ -19,7 +19,6 @@ MOST_BALLS = 10_000_000
 """Of one group."""
 
 Floats = NDArray[np.float64]
-Range = tuple[Positive, Positive]
 Mass = Annotated[float, Strict(), AllowInfNan(True), Field(gt=0)]
 
 
@@ -28,7 +27,7 @@ class Placement(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    radius: Positive | Range
+    radius: OneOrTwo
     """One radius, or [smallest, largest] for radii spread evenly at random."""
     mass: Mass | None = None
     """Of every ball; inf makes pegs. None: from density."""

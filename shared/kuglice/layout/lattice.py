@@ -10,7 +10,7 @@ from pydantic import Field
 from kuglice.balls import Balls
 from kuglice.errors import SceneError
 from kuglice.layout.group import MOST_BALLS, Placement
-from kuglice.schema.numbers import Count, Point, Positive
+from kuglice.schema.numbers import Count, OneOrTwo, Point
 from kuglice.schema.problems import Problem, raises, refusal
 
 __all__ = ["LatticeGroup"]
@@ -30,7 +30,7 @@ class LatticeGroup(Placement):
     columns: Annotated[Count, Field(le=MOST_BALLS)]
     rows: Annotated[Count, Field(le=MOST_BALLS)]
     origin: Point
-    spacing: Positive | tuple[Positive, Positive]
+    spacing: OneOrTwo
 
     def place(self, box: tuple[float, float, float, float], present: Balls) -> Balls:
         """On the lattice, whatever else is there."""

@@ -5,9 +5,22 @@ from __future__ import annotations
 from typing import Annotated
 
 import numpy as np
-from pydantic import AllowInfNan, BeforeValidator, Field, Strict
+from pydantic import AllowInfNan, BeforeValidator, Discriminator, Field, Strict, Tag
 
-__all__ = ["Box", "Count", "Flag", "Fraction", "NonNegative", "Number", "Point", "Positive", "Whole"]
+__all__ = [
+    "PAIR",
+    "SINGLE",
+    "Box",
+    "Count",
+    "Flag",
+    "Fraction",
+    "NonNegative",
+    "Number",
+    "OneOrTwo",
+    "Point",
+    "Positive",
+    "Whole",
+]
 
 
 def _plain(value: object) -> object:
@@ -24,3 +37,10 @@ Count = Annotated[int, BeforeValidator(_plain), Strict(), Field(ge=1)]
 Flag = Annotated[bool, Strict()]
 Point = tuple[Number, Number]
 Box = tuple[Number, Number, Number, Number]
+
+SINGLE, PAIR = "one number", "two numbers"
+OneOrTwo = Annotated[
+    Annotated[Positive, Tag(SINGLE)] | Annotated[tuple[Positive, Positive], Tag(PAIR)],
+    Discriminator(lambda value: PAIR if isinstance(value, list | tuple) else SINGLE),
+]
+"""Told apart beforehand: a plain union would report what is wrong with each of its members."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import wraps
 from typing import NamedTuple, TypeVar
@@ -12,6 +12,7 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
 
 from kuglice.errors import KugliceError, SceneError
+from kuglice.schema.numbers import PAIR, SINGLE
 
 __all__ = ["Problem", "raises", "refusal", "refuse", "told", "within"]
 
@@ -24,6 +25,18 @@ TAGGED = {
     "groups": ("random", "lattice", "triangle", "listed"),
 }
 """Lists whose items are told apart by a tag, which pydantic inserts into the key."""
+
+WORDS = {
+    "Value error, ": "",
+    "Input should be": "must be",
+    "must be a valid tuple": "must be an array",
+    "must be a valid dictionary or object to extract fields from": "must be a table",
+    "must be a valid dictionary or instance of ": "must be a table or a ",
+    "Tuple should have": "must have",
+    " item after validation": " item",
+    " items after validation": " items",
+}
+"""What a schema says, and what is said of a file, in this order."""
 
 
 class Problem(NamedTuple):
@@ -99,6 +112,8 @@ def raises(raised: type[KugliceError]) -> Callable[[Schema], Schema]:
 
 def _sentence(details: ErrorDetails, keys: tuple[str, ...]) -> str:
     key, kind = details["loc"], details["type"]
+    if kind in ("union_tag_invalid", "union_tag_not_found"):
+        return _tag(details)
     if key and isinstance(key[0], int) and key[0] < len(keys):
         # An argument given by position.
         key = (keys[key[0]], *key[1:])
@@ -108,13 +123,31 @@ def _sentence(details: ErrorDetails, keys: tuple[str, ...]) -> str:
         near = difflib.get_close_matches(str(key[-1]), keys, n=1)
         guess = f"; did you mean {near[0]}?" if near else ""
         return f"{_path(key)} = {_shown(details['input'])}: no such key{guess}"
-    message = details["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
+    message = details["msg"]
+    for theirs, ours in WORDS.items():
+        message = message.replace(theirs, ours)
     return f"{_path(key)} = {_shown(details['input'])}: {message}" if key else message
+
+
+def _tag(details: ErrorDetails) -> str:
+    """Of an item whose kind is none of those that there are."""
+    known = TAGGED.get(str(details["loc"][0]) if details["loc"] else "", ())
+    name = details["ctx"]["discriminator"].strip("'")
+    path = _path((*details["loc"], name))
+    listed = ", ".join(known) or details["ctx"].get("expected_tags", "")
+    if details["type"] == "union_tag_not_found":
+        return f"{path}: missing" + (f", must be one of {listed}" if listed else "")
+    given = details["input"]
+    tag = given[name] if isinstance(given, Mapping) else details["ctx"]["tag"]
+    near = difflib.get_close_matches(str(tag), known, n=1)
+    guess = f"; did you mean {near[0]}?" if near else ""
+    return f"{path} = {_shown(tag)}: must be one of {listed}{guess}"
 
 
 def _path(key: Key) -> str:
     if len(key) > 2 and key[2] in TAGGED.get(str(key[0]), ()):
         key = (*key[:2], *key[3:])
+    key = tuple(part for part in key if part not in (SINGLE, PAIR))
     text = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in key)
     return text.removeprefix(".")
 
