@@ -12,6 +12,7 @@ from kuglice.scene import (
     SpawnLimits,
     ThrustForce,
 )
+from kuglice.scenes.bounds import whole
 
 __all__ = ["arena"]
 
@@ -21,6 +22,8 @@ MARGIN = 4.0
 
 def arena(players: int = 8, balls: int = 600, seed: int = 1) -> Scene:
     """Up to `players` heavy balls, steered by thrust, among loose ones."""
+    whole("arena", players=players, balls=balls)
+    whole("arena", least=0, seed=seed)
     width, height = 64.0, 36.0
     sides = (0.5 * MARGIN, width - 0.5 * MARGIN)
     lanes = (players + 1) // 2

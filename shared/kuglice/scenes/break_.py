@@ -6,12 +6,16 @@ import math
 
 from kuglice.layout import ListedGroup, TriangleGroup
 from kuglice.scene import Balls, Scene
+from kuglice.scenes.bounds import at_least, finite, whole
 
 __all__ = ["break_"]
 
 
 def break_(rows: int = 100, speed: float = 120.0, gap: float = 0.02) -> Scene:
     """A fast heavy ball into a triangle of rows (rows + 1) / 2 balls: 5,050 for 100 rows."""
+    whole("break", rows=rows)
+    finite("break", speed=speed)
+    at_least("break", 0.0, gap=gap)
     spacing = 1.0 + gap
     deep = rows * spacing * math.sqrt(3.0) / 2.0
     height = 1.5 * max(rows * spacing, 12.0)

@@ -17,7 +17,7 @@ __all__ = ["find", "parameters"]
 
 def find(text: str) -> Scene:
     """A file if it ends in .toml, else a built-in scene, with parameters after a colon. Raises SceneError."""
-    if text.endswith(".toml") or Path(text).is_file():
+    if text.endswith(".toml") or _is_file(text):
         return Scene.load(text)
     name, _, given = text.partition(":")
     make = TABLE.get(name)
@@ -33,6 +33,14 @@ def find(text: str) -> Scene:
     except (ArithmeticError, ValueError, MemoryError) as error:
         # A size of 0, -1 or 1e300 is stopped by arithmetic before any schema sees it.
         raise SceneError(f"scene {text!r}: these parameters make no scene: {error}") from error
+
+
+def _is_file(text: str) -> bool:
+    try:
+        return Path(text).is_file()
+    except OSError:
+        # Longer than any name of a file.
+        return False
 
 
 def parameters(make: Callable[..., Scene]) -> dict[str, int | float]:

@@ -6,12 +6,16 @@ import math
 
 from kuglice.layout import ListedGroup
 from kuglice.scene import Attractor, Balls, Scene
+from kuglice.scenes.bounds import at_least, positive, whole
 
 __all__ = ["orbit"]
 
 
 def orbit(n: int = 12, strength: float = 200.0, softening: float = 0.1) -> Scene:
     """n small balls on circles of different radii; none ever meets another."""
+    whole("orbit", n=n)
+    at_least("orbit", 0.0, strength=strength)
+    positive("orbit", softening=softening)
     position, velocity = [], []
     for index in range(n):
         distance = 2.0 + index

@@ -6,12 +6,15 @@ import math
 
 from kuglice.layout import LatticeGroup, RandomGroup
 from kuglice.scene import Gravity, Scene
+from kuglice.scenes.bounds import whole
 
 __all__ = ["pegs"]
 
 
 def pegs(n: int = 400, rows: int = 14, seed: int = 1) -> Scene:
     """n balls fall through rows of fixed pegs into bins."""
+    whole("pegs", n=n, rows=rows)
+    whole("pegs", least=0, seed=seed)
     columns, spacing = 24, 2.0
     width, bins, board = columns * spacing, 8.0, rows * 1.6
     height = bins + board + 1.0 + n / 20.0

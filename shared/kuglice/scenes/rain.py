@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from kuglice.layout import RandomGroup
 from kuglice.scene import Gravity, Scene
+from kuglice.scenes.bounds import finite, positive, whole
 
 __all__ = ["rain"]
 
 
 def rain(n: int = 2000, seed: int = 1, radius: float = 0.15, gravity: float = 10.0) -> Scene:
     """n elastic balls that fall from the upper half of a box and never come to rest."""
+    whole("rain", n=n)
+    whole("rain", least=0, seed=seed)
+    positive("rain", radius=radius)
+    finite("rain", gravity=gravity)
     return Scene(
         title="Rain",
         description="Elastic drops fall, bounce and spread until their density follows the barometric law.",
