@@ -27,9 +27,9 @@ Floats = NDArray[np.float64]
 class Balls:
     """Balls in id order: position and velocity (n, 2), radius and mass (n,), all float64.
 
-    Scalars, and one row of two for position and velocity, are broadcast. Mass is pi radius^2 unless given; an
-    infinite mass makes a peg. Raises SceneError for a shape, a type, a NaN, or a radius or mass that is
-    not positive.
+    Position says how many balls there are; scalars, and one row of two for velocity, are broadcast. Mass is
+    pi radius^2 unless given; an infinite mass makes a peg. Raises SceneError for a shape, a type, a NaN, or
+    a radius or mass that is not positive.
     """
 
     __slots__ = ("_mass", "_position", "_radius", "_velocity")
@@ -53,6 +53,10 @@ class Balls:
         arrays = {name: _numbers(name, value, problems) for name, value in given.items() if value is not None}
         refuse("Balls", problems)
         placed = arrays["position"]
+        if placed.size and placed.ndim != 2:
+            # One flat row would broadcast to as many balls as it has numbers.
+            bound = "must have shape (n, 2), one row per ball"
+            refuse("Balls", [Problem(("position",), f"shape {placed.shape}", bound)])
         # An empty list has no second dimension to tell.
         count = 0 if placed.size == 0 else len(placed)
         pairs, singles = (count, 2), (count,)

@@ -13,6 +13,7 @@ bits at a tick do not depend on how time was cut into frames.
 from __future__ import annotations
 
 import logging
+import math
 import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable
@@ -60,8 +61,8 @@ class Loop(ABC):
         clock: Clock = time.monotonic_ns,
         longest: float = LONGEST,
     ) -> None:
-        if not longest > 0:
-            raise LimitError(f"longest = {longest}: must be greater than 0 seconds")
+        if not 0 < longest < math.inf:
+            raise LimitError(f"longest = {longest}: must be finite and greater than 0 seconds")
         self.world = world
         self.stalls = 0
         """Frames that were cut."""

@@ -74,6 +74,9 @@ def test_a_negative_zero_is_another_state():
     ("given", "told"),
     [
         ({"position": [(1, 2, 3)], "radius": 1}, r"position = 'shape \(1, 3\)': must have shape \(1, 2\)"),
+        ({"position": [3, 1], "radius": 1}, r"position = 'shape \(2,\)': must have shape \(n, 2\)"),
+        ({"position": 3, "radius": 1}, r"position = 'shape \(\)': must have shape \(n, 2\)"),
+        ({"position": [[(1, 2)]], "radius": 1}, r"position = 'shape \(1, 1, 2\)': must have shape \(n, 2\)"),
         ({"position": [(1, 2)], "radius": [1, 2]}, r"radius = 'shape \(2,\)': must have shape \(1,\)"),
         ({"position": [(1, 2), (3,)], "radius": 1}, "position = .*rows of equal length"),
         ({"position": [("1", "2")], "radius": 1}, "position = .*must be numbers"),

@@ -180,6 +180,7 @@ def test_balls_that_come_and_go_are_drawn_by_their_id():
     assert (drawn[-1] == loop.world.position[-1]).all()
 
 
-def test_a_longest_frame_of_nothing_is_refused():
-    with pytest.raises(kg.errors.LimitError, match=r"longest = 0\.0"):
-        Fixed(world_of(), longest=0.0)
+@pytest.mark.parametrize("longest", [0.0, -1.0, float("inf"), float("nan")])
+def test_a_longest_frame_of_nothing_or_without_end_is_refused(longest):
+    with pytest.raises(kg.errors.LimitError, match=f"longest = {longest}: must be finite and greater than 0"):
+        Fixed(world_of(), longest=longest)

@@ -32,7 +32,12 @@ CLASSES: dict[str, Any] = {kind.model_fields["kind"].default: kind for kind in K
 
 
 def pack(inputs: Iterable[Input]) -> bytes:
-    """One record of `_core.INPUT_BYTES` bytes each, one after the other, in the order given."""
+    """One record of `_core.INPUT_BYTES` bytes each, one after the other, in the order given.
+
+    Raises InputError for anything that is no input.
+    """
+    if not isinstance(inputs, Iterable):
+        raise InputError(f"inputs = {inputs!r}: must be a sequence of inputs")
     return b"".join(_record(given) for given in inputs)
 
 
@@ -44,6 +49,8 @@ def unpack(data: bytes) -> list[Input]:
 
 
 def _record(given: Input) -> bytes:
+    if not isinstance(given, KINDS):
+        raise InputError(f"input {given!r}: must be one of {', '.join(kind.__name__ for kind in KINDS)}")
     kind = given.kind
     ball = getattr(given, "ball", None)
     numbers = (*(getattr(given, name) for name in NUMBERS[kind]), *PADDING)[:6]
