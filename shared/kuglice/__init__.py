@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from types import ModuleType
+import importlib as _importlib
+from types import ModuleType as _ModuleType
+from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 from kuglice import errors, inputs, scenes
 from kuglice.errors import KugliceError
@@ -25,8 +26,11 @@ from kuglice.scene import (
     Spring,
     ThrustForce,
 )
-from kuglice.version import VERSION
+from kuglice.version import VERSION as _VERSION
 from kuglice.world import World
+
+if _TYPE_CHECKING:
+    from kuglice import loop, picture, protocol, replay
 
 __all__ = [
     "Attract",
@@ -55,17 +59,26 @@ __all__ = [
     "World",
     "errors",
     "inputs",
+    "loop",
+    "picture",
     "plan",
+    "protocol",
+    "replay",
     "scenes",
 ]
 
-__version__ = VERSION
+__version__ = _VERSION
 
-LATER = ("loop", "picture", "protocol", "replay")
+_LATER = ("loop", "picture", "protocol", "replay")
 """Modules that most programs never need: `kuglice.loop` imports on first use."""
 
 
-def __getattr__(name: str) -> ModuleType:
-    if name in LATER:
-        return import_module(f"kuglice.{name}")
+def __getattr__(name: str) -> _ModuleType:
+    if name in _LATER:
+        return _importlib.import_module(f"kuglice.{name}")
     raise AttributeError(f"module 'kuglice' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    """What a user is meant to find, whichever modules are imported by now."""
+    return [*__all__, "__version__"]

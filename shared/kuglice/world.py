@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kuglice import _core
+from kuglice.errors import LimitError, MissingExtraError, SnapshotError
 from kuglice.inputs import Input, pack
 from kuglice.model import Model
 from kuglice.plan import plan
@@ -18,6 +19,8 @@ __all__ = ["World"]
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.uint64]
+MOST_TICKS = 2**63
+"""The core counts them in 64 bits."""
 
 
 class World:
@@ -44,9 +47,25 @@ class World:
 
     @classmethod
     def restore(cls, scene: Scene, data: bytes, model: Model | None = None) -> World:
-        """The world of a snapshot; it continues bit for bit. Raises SnapshotError."""
+        """The world of a snapshot; it continues bit for bit.
+
+        Raises SnapshotError, also when every ball lies beyond the scene's walls: then it is another scene's.
+        """
         chosen = plan(scene) if model is None else model
-        return cls._wrap(scene, chosen, _core.World.restore(scene.rules(), chosen.core(), data))
+        made = cls._wrap(scene, chosen, _core.World.restore(scene.rules(), chosen.core(), data))
+        if scene.walls and made.count:
+            made._refuse_if_elsewhere()
+        return made
+
+    def _refuse_if_elsewhere(self) -> None:
+        left, bottom, right, top = self._scene.box
+        with self.view() as balls:
+            x, y = balls.position[:, 0], balls.position[:, 1]
+            if not ((x >= left) & (x <= right) & (y >= bottom) & (y <= top)).any():
+                raise SnapshotError(
+                    f"snapshot: all {len(x)} balls lie outside the box {list(self._scene.box)}:"
+                    " it is of a world of another scene"
+                )
 
     @classmethod
     def _wrap(cls, scene: Scene, model: Model, core: _core.World) -> World:
@@ -57,13 +76,18 @@ class World:
     def step(self, inputs: Iterable[Input] | bytes = (), dt: float | None = None) -> None:
         """One tick with inputs in any order, or with records that `pack` made.
 
-        dt, in seconds, replaces 1 / tick_rate for loops of variable step. Raises LentError while lent.
+        dt, in seconds, replaces 1 / tick_rate for loops of variable step. Raises InputError for what is no
+        input, LentError while lent.
         """
         self._core.step(inputs if isinstance(inputs, bytes) else pack(inputs), dt)
 
     def run(self, ticks: int) -> None:
-        """That many ticks without inputs. Raises LentError while lent."""
-        self._core.run(ticks)
+        """That many ticks without inputs. Raises LimitError for a number below 0, LentError while lent."""
+        if not isinstance(ticks, int | np.integer) or not 0 <= ticks < MOST_TICKS:
+            raise LimitError(
+                f"run: ticks = {ticks!r}: must be a whole number, at least 0 and below {MOST_TICKS}"
+            )
+        self._core.run(int(ticks))
 
     def snapshot(self) -> bytes:
         """The state before the next tick's inputs: versioned, checksummed, every bit."""
@@ -210,7 +234,11 @@ class World:
     def __repr__(self) -> str:
         return f"World({self._scene.title!r}, tick {self.tick}, {self.count} balls, {self._model})"
 
-    def _repr_png_(self) -> bytes:
+    def _repr_png_(self) -> bytes | None:
+        """None without Pillow: a notebook then shows the text."""
         from kuglice.picture import png  # noqa: PLC0415 - few worlds are drawn
 
-        return png(self)
+        try:
+            return png(self)
+        except MissingExtraError:
+            return None

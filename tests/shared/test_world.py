@@ -127,6 +127,34 @@ def test_energy_counts_potential_and_leaves_out_pegs():
     assert np.isfinite(world.energy)
 
 
+@pytest.mark.parametrize("ticks", [-1, 1.5, "3", 2**70, None])
+def test_a_number_of_ticks_that_cannot_be_run_is_refused(world, ticks):
+    with pytest.raises(kg.errors.LimitError, match=r"run: ticks = .*: must be a whole number, at least 0"):
+        world.run(ticks)
+    assert world.tick == 0
+    world.run(np.int64(2))
+    assert world.tick == 2
+
+
+@pytest.mark.parametrize(
+    ("inputs", "told"),
+    [([1], "input 1: must be one of Join"), ("no", "input 'n'"), (3, "inputs = 3: must be a sequence")],
+)
+def test_what_is_no_input_is_refused_and_nothing_is_lost(world, inputs, told):
+    start = world.state_hash
+    with pytest.raises(kg.errors.InputError, match=told):
+        world.step(inputs)
+    assert world.state_hash == start
+
+
+def test_a_snapshot_from_elsewhere_is_refused(world):
+    far = kg.Scene(box=(1000, 1000, 1100, 1100), balls=kg.Balls(position=[(1050, 1050)], radius=1))
+    with pytest.raises(kg.errors.SnapshotError, match=r"all 50 balls lie outside the box .* another scene"):
+        kg.World.restore(far, world.snapshot())
+    open_plane = far.model_copy(update={"walls": False})
+    assert kg.World.restore(open_plane, world.snapshot()).count == 50
+
+
 def test_stepping_lets_other_threads_run():
     world = kg.World(kg.scenes.gas(n=20_000))
     counted, running = 0, True
@@ -166,3 +194,11 @@ def test_modules_that_few_need_come_on_first_use():
         assert getattr(kg, name).__name__ == f"kuglice.{name}"
     with pytest.raises(AttributeError, match="no attribute 'nothing'"):
         _ = kg.nothing
+
+
+def test_the_package_lists_what_is_public_and_nothing_else():
+    assert dir(kg) == sorted([*kg.__all__, "__version__"])
+    for name in kg.__all__:
+        assert getattr(kg, name) is not None
+    for name in ("loop", "picture", "replay", "protocol", "World"):
+        assert name in kg.__all__
