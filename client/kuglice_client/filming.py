@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 from kuglice import Scene
 from kuglice.errors import KugliceError, PictureError
 from kuglice.picture import encode_png
-from kuglice_client.render import OUTPUTS, Renderer, open_output
+from kuglice_client.render import OUTPUTS, Renderer, check_look, open_output
 from kuglice_client.render.moment import Moment
 
 __all__ = ["Film", "FilmSettings"]
@@ -38,7 +38,7 @@ STEPS_ASIDE = 10
 
 @dataclass(frozen=True)
 class FilmSettings:
-    """How it looks and where it goes.
+    """How it looks and where it goes. Raises PictureError for what can neither be drawn nor written.
 
     `still_every`: frames from one PNG beside the film to the next, 0 for none.
     """
@@ -52,13 +52,17 @@ class FilmSettings:
     still_every: int = 0
     own: int | None = None
 
+    def __post_init__(self) -> None:
+        if self.path.suffix.lower() not in OUTPUTS:
+            kinds = ", ".join(suffix for suffix in OUTPUTS if suffix)
+            raise PictureError(f"film {self.path}: must be a directory, or its suffix one of {kinds}")
+        check_look(style=self.style, overlays=self.overlays, trails=self.trails)
+
 
 class Film:
     """Takes moments without ever waiting. Raises PictureError at once for what cannot be drawn as asked."""
 
     def __init__(self, scene: Scene, settings: FilmSettings) -> None:
-        if settings.path.suffix.lower() not in OUTPUTS:
-            raise PictureError(f"film {settings.path}: its suffix must be one of {', '.join(OUTPUTS)}")
         _renderer(scene, settings)
         self.settings = settings
         self.taken = 0

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib import import_module
 
 from kuglice.errors import MissingExtraError
 
-__all__ = ["extra"]
+__all__ = ["extra", "require"]
 
 DISTRIBUTIONS = {
     "PIL": "Pillow",
@@ -17,6 +18,17 @@ DISTRIBUTIONS = {
     "pymunk": "pymunk",
     "scipy": "scipy",
 }
+
+
+MODULES = {"render": ("PIL", "av")}
+"""What an extra brings, where a command wants all of it from the start."""
+
+
+def require(name: str) -> None:
+    """Raises MissingExtraError unless the packages of an extra are installed: before work, not after it."""
+    with extra(name):
+        for module in MODULES[name]:
+            import_module(module)
 
 
 @contextmanager

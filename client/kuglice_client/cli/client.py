@@ -7,6 +7,7 @@ import random
 import secrets
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
@@ -17,15 +18,18 @@ from kuglice.cli.figures import print_figures
 from kuglice.cli.logs import STDERR, log_to_stderr
 from kuglice.cli.stop import stop_on_signals
 from kuglice.errors import KugliceError
+from kuglice.extras import require
 from kuglice_client.bots import BOTS
 from kuglice_client.client import Client, ClientSettings
 
 if TYPE_CHECKING:
-    from kuglice_client.filming import Film
+    from kuglice_client.filming import Film, FilmSettings
 
 __all__ = ["register"]
 
 FINISH_SECONDS = 600.0
+OF_PLAYERS = frozenset({"name", "number", "inputs_accepted", "inputs_refused", "inputs_late"})
+"""Figures that a spectator has none of: programs get them empty, people not at all."""
 
 
 def register(app: typer.Typer) -> None:
@@ -47,9 +51,9 @@ def client(
         typer.Option(help=f"Who plays: {', '.join(BOTS)}. Without bot and name, you are a spectator."),
     ] = None,
     seconds: Annotated[
-        float | None, typer.Option(help="Leave after this long. [default: on SIGINT or SIGTERM]")
+        float | None, typer.Option(min=0.0, help="Leave after this long. [default: on SIGINT or SIGTERM]")
     ] = None,
-    wait: Annotated[float, typer.Option(help="Seconds to keep trying to join.")] = 10.0,
+    wait: Annotated[float, typer.Option(min=0.0, help="Seconds to keep trying to join.")] = 10.0,
     render: Annotated[
         Path | None, typer.Option(help="Film what is seen: .mp4, .webm, .gif, or frame-%05d.png.")
     ] = None,
@@ -71,7 +75,9 @@ def client(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the closing figures as JSON.")] = False,
 ) -> None:
-    """Join a server: follow its world bit for bit, play as a bot or watch, film what is seen.
+    """Join a server: play as a bot, or watch; film it.
+
+    The world is the server's bit for bit. Without bot and name you are a spectator.
 
     Ends with status 1 if any state differed from the server's.
 
@@ -88,12 +94,13 @@ def client(
         lose=(lambda _: random.random() < lose) if lose else None,
     )
     look = _Look(fps, _pixels(size), style, tuple(overlay or ("tick",)), trails, still_every)
+    film_settings = _film_settings(render, look)
     film = None
     summary: dict[str, Any] = {}
     playing = Client(settings, stop)
     try:
-        if render is not None:
-            film = _film(playing, render, look)
+        if film_settings is not None:
+            film = _film(playing, film_settings)
         with STDERR.status("playing") as line:
             playing.run(seconds=seconds, fps=fps, each_frame=_shower(film, look, line))
         summary = playing.summary()
@@ -105,7 +112,9 @@ def client(
     if summary_json is not None:
         summary_json.parent.mkdir(parents=True, exist_ok=True)
         summary_json.write_text(json.dumps(summary, indent=2) + "\n")
-    print_figures(f"Client {settings.name or '(spectator)'}", {"client": summary}, as_json=as_json)
+    watching = settings.name is None and not as_json
+    shown = {name: value for name, value in summary.items() if not (watching and name in OF_PLAYERS)}
+    print_figures(f"Client {settings.name or '(spectator)'}", {"client": shown}, as_json=as_json)
     if not summary["agreed"]:
         compared = summary["hashes_checked"] > 0
         STDERR.print("states differed from the server's" if compared else "nothing could be compared")
@@ -130,9 +139,15 @@ def _pixels(size: str) -> tuple[int, int]:
     return int(width), int(height)
 
 
-def _film(playing: Client, path: Path, look: _Look) -> Film:
-    from kuglice_client.filming import Film, FilmSettings  # noqa: PLC0415 - needs the extra `render`
+def _film_settings(path: Path | None, look: _Look) -> FilmSettings | None:
+    """What cannot be drawn is refused before anybody is joined, not after the play."""
+    from kuglice_client.filming import FilmSettings  # noqa: PLC0415 - few clients film
+    from kuglice_client.render import check_look  # noqa: PLC0415
 
+    if path is None:
+        # A wrong word is a wrong word, even if nothing is drawn.
+        check_look(style=look.style, overlays=look.overlays, trails=look.trails)
+        return None
     settings = FilmSettings(
         path=path,
         fps=look.fps,
@@ -141,9 +156,15 @@ def _film(playing: Client, path: Path, look: _Look) -> Film:
         overlays=look.overlays,
         trails=look.trails,
         still_every=round(look.still_every * look.fps),
-        own=playing.joined.number,
     )
-    return Film(playing.joined.scene, settings)
+    require("render")
+    return settings
+
+
+def _film(playing: Client, settings: FilmSettings) -> Film:
+    from kuglice_client.filming import Film  # noqa: PLC0415 - few clients film
+
+    return Film(playing.joined.scene, replace(settings, own=playing.joined.number))
 
 
 def _shower(film: Film | None, look: _Look, line: Status) -> Callable[[Client, float], None]:
@@ -171,6 +192,6 @@ def _finished(film: Film) -> dict[str, Any]:
             figures["frames"] = film.close(FINISH_SECONDS)
     except KugliceError as error:
         # The figures of the play are worth keeping without a film too.
-        STDERR.print(str(error), style="red", highlight=False)
+        STDERR.print(str(error), style="red", highlight=False, markup=False)
         figures["film_error"] = str(error)
     return figures

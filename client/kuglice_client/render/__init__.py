@@ -21,7 +21,7 @@ from kuglice_client.render.film import film
 from kuglice_client.render.moment import HashState, Moment, between
 from kuglice_client.render.outputs import OUTPUTS, Output, open_output
 from kuglice_client.render.overlays import OVERLAYS
-from kuglice_client.render.renderer import Renderer
+from kuglice_client.render.renderer import Renderer, check_look
 from kuglice_client.render.size import parse_size
 from kuglice_client.render.styles import STYLES
 
@@ -34,6 +34,7 @@ __all__ = [
     "Output",
     "Renderer",
     "between",
+    "check_look",
     "film",
     "open_output",
     "parse_size",

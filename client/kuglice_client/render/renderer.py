@@ -16,7 +16,7 @@ from kuglice_client.render.stage import Layer, Pixels, Stage
 from kuglice_client.render.styles import STYLES
 from kuglice_client.render.trails import Trails
 
-__all__ = ["Renderer"]
+__all__ = ["Renderer", "check_look"]
 
 
 class Renderer:
@@ -83,6 +83,14 @@ class Renderer:
         for overlay in self._overlays:
             overlay(self._pixels, self.stage, moment)
         return self._pixels
+
+
+def check_look(*, style: str, overlays: Sequence[str], trails: float) -> None:
+    """Raises PictureError for what no Renderer can draw, whatever the scene."""
+    _known("style", style, STYLES)
+    for name in overlays:
+        _known("overlay", name, OVERLAYS)
+    _duration(trails)
 
 
 def _known(what: str, name: str, table: Mapping[str, Layer]) -> Layer:

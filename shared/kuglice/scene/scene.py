@@ -117,7 +117,7 @@ class Scene(BaseModel):
             ],
         )
 
-    def _repr_png_(self) -> bytes:
+    def _repr_png_(self) -> bytes | None:
         from kuglice.world import World  # noqa: PLC0415 - a World is made of a Scene
 
         return World(self)._repr_png_()
