@@ -1,20 +1,29 @@
 """The command line: data on stdout, one clear line on stderr, exit codes that scripts can use."""
 
 import json
+import os
 import subprocess
 import sys
 
 import pytest
 
 import kuglice as kg
+from kuglice.cli.figures import print_figures
 from kuglice.replay import Recorder
 from kuglice.version import VERSION
 
 
-def kuglice(*arguments: str) -> subprocess.CompletedProcess[str]:
-    code = "from kuglice.cli import main; main()"
+def kuglice(*arguments: str, before: str = "") -> subprocess.CompletedProcess[str]:
+    """`before`: a statement that runs first."""
+    code = f"{before}\nfrom kuglice.cli import main; main()"
     command = [sys.executable, "-c", code, *arguments]
-    return subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    # Where help is wrapped depends on it.
+    there = {**os.environ, "COLUMNS": "100"}
+    return subprocess.run(command, capture_output=True, text=True, timeout=60, check=False, env=there)
+
+
+WITHOUT_EXTRAS = "import sys; sys.modules['PIL'] = sys.modules['av'] = None"
+"""As if they were not installed."""
 
 
 @pytest.fixture
@@ -35,6 +44,67 @@ def test_help_lists_the_commands_and_each_has_its_own():
         assert command in shown.stdout
         assert kuglice(command, "--help").returncode == 0
     assert kuglice("-h").stdout == shown.stdout
+
+
+def test_help_lists_first_what_comes_first_and_cuts_no_sentence():
+    _, listed = kuglice("--help").stdout.split("Commands:\n")
+    named = [line.split()[0] for line in listed.splitlines()]
+    assert named == ["demo", "scenes", "plan", "render", "server", "client", "replay", "chart", "bench"]
+    for line in listed.splitlines():
+        assert line.endswith("."), line
+        assert not line.endswith(".."), line
+        assert len(line.split(maxsplit=1)[1]) <= 60
+
+
+def test_scenes_and_files_are_called_the_same_everywhere():
+    for command in ("plan", "render", "server", "chart", "scenes"):
+        assert "SCENE" in kuglice(command, "--help").stdout.splitlines()[0]
+    assert "FILE" in kuglice("replay", "--help").stdout.splitlines()[0]
+
+
+def test_an_interrupt_while_starting_ends_quietly_with_130():
+    interrupt = "import kuglice.cli.app\ndef stop(): raise KeyboardInterrupt\nkuglice.cli.app.build = stop"
+    shown = kuglice("scenes", before=interrupt)
+    assert (shown.returncode, shown.stdout, shown.stderr) == (130, "", "")
+
+
+@pytest.mark.parametrize("command", ["server arena", "client"])
+def test_a_time_below_zero_is_refused(command):
+    shown = kuglice(*command.split(), "--seconds", "-1")
+    assert shown.returncode == 2
+    assert "--seconds" in shown.stderr
+
+
+def test_what_a_client_cannot_draw_is_refused_before_it_connects():
+    # Nobody listens there: whoever gets as far as to connect says so.
+    nobody = ("client", "--connect", "tcp/127.0.0.1:9", "--wait", "0")
+    for wrong, told in [
+        (("--render", "x.foo"), "film x.foo: must be a directory, or its suffix one of .mp4, .webm"),
+        (("--style", "nope"), "style 'nope': there is none of that name, only discs"),
+        (("--overlay", "nope", "--render", "x.gif"), "overlay 'nope': there is none of that name"),
+    ]:
+        shown = kuglice(*nobody, *wrong)
+        assert shown.returncode == 2
+        assert shown.stderr.startswith(f"kuglice: {told}")
+        assert shown.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize("command", ["demo --out {}", "client --render {}/x.mp4", "replay {} --render x.mp4"])
+def test_a_missing_extra_is_named_before_anything_else_is_done(command, recording, tmp_path):
+    target = recording if command.startswith("replay") else tmp_path / "out"
+    shown = kuglice(*command.format(target).split(), before=WITHOUT_EXTRAS)
+    assert shown.returncode == 2
+    assert shown.stderr == "kuglice: Pillow is not installed; it comes with: pip install 'kuglice[render]'\n"
+    assert shown.stdout == ""
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_notebook_without_pillow_shows_text():
+    code = (
+        "import kuglice as kg; w = kg.World(kg.scenes.cradle()); print(w._repr_png_(), w.scene._repr_png_())"
+    )
+    command = [sys.executable, "-c", f"{WITHOUT_EXTRAS}\n{code}"]
+    assert subprocess.run(command, capture_output=True, text=True, check=True).stdout == "None None\n"
 
 
 def test_version():
@@ -105,6 +175,27 @@ def test_a_replay_that_is_equal_says_so(tmp_path):
     assert (figures["ticks"], figures["hashes"]) == (20, 21)
 
 
+def test_a_replay_that_was_cut_off_says_so_and_ends_with_3(tmp_path):
+    path = tmp_path / "run.kuglice"
+    world = kg.World(kg.scenes.cradle())
+    with Recorder(path, world) as recorder:
+        for _ in range(20):
+            world.step()
+            recorder.add()
+        # What a crash leaves behind: whole ticks and no end.
+        data = path.read_bytes()
+    path.write_bytes(data)
+    shown, twin = kuglice("replay", str(path)), kuglice("replay", str(path), "--json")
+    assert shown.returncode == twin.returncode == 3
+    assert (
+        "equal as far as it goes, but not complete: the recording was cut off after 20 ticks" in shown.stdout
+    )
+    figures = json.loads(twin.stdout)
+    assert figures["equal"]
+    assert not figures["complete"]
+    assert "with 3" in kuglice("replay", "--help").stdout
+
+
 def test_a_replay_that_differs_names_tick_and_balls_and_ends_with_1(recording):
     shown, twin = kuglice("replay", str(recording)), kuglice("replay", str(recording), "--json")
     assert shown.returncode == twin.returncode == 1
@@ -119,3 +210,10 @@ def test_a_file_that_is_no_replay_is_refused(tmp_path):
     assert shown.returncode == 2
     assert "not a replay file" in shown.stderr
     assert shown.stderr.count("\n") == 1
+
+
+def test_digits_are_grouped_in_counts_and_not_in_names(capsys):
+    print_figures("", {"server": {"epoch": 1763787695123456789, "ticks": 12345}}, as_json=False)
+    shown = capsys.readouterr().out
+    assert "1763787695123456789" in shown
+    assert "12,345" in shown

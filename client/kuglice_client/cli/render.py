@@ -52,7 +52,9 @@ def render(  # noqa: PLR0917 - options
     size: Annotated[str, typer.Option(help="Width x height in pixels.")] = "1280x720",
     as_json: Annotated[bool, typer.Option("--json", help="The same figures as JSON.")] = False,
 ) -> None:
-    """Run a scene without inputs and draw it. The first interrupt ends the film early, and finishes its file.
+    """Draw a scene as a film or as pictures.
+
+    It runs without inputs. The first interrupt ends the film early, and finishes its file.
 
     kuglice render dam --style fluid --out dam.mp4
 

@@ -26,7 +26,7 @@ def register(app: typer.Typer) -> None:
 
 
 def server(
-    scene: Annotated[str, typer.Argument(help="A built-in scene ('gas', 'gas:n=2000') or a TOML file.")],
+    scene: Annotated[str, typer.Argument(help="A TOML file or a built-in scene.", metavar="SCENE")],
     *,
     listen: Annotated[
         list[str] | None,
@@ -47,7 +47,7 @@ def server(
     ] = None,
     record: Annotated[Path | None, typer.Option(help="Write a replay file.")] = None,
     seconds: Annotated[
-        float | None, typer.Option(help="Stop after this long. [default: on SIGINT or SIGTERM]")
+        float | None, typer.Option(min=0.0, help="Stop after this long. [default: on SIGINT or SIGTERM]")
     ] = None,
     until_empty: Annotated[
         bool, typer.Option("--until-empty", help="Stop when the last client has left.")
@@ -57,9 +57,10 @@ def server(
     ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print the closing figures as JSON.")] = False,
 ) -> None:
-    """Serve a world: step it at a fixed rate, publish it, and take inputs of the clients that join.
+    """Serve a world to the clients that join.
 
-    Nothing else need be started: the server is its own Zenoh router.
+    Steps it at a fixed rate, publishes it, and takes inputs. Nothing else need be started: the server is its
+    own Zenoh router.
 
     Example: kuglice server arena --record out/game.kgr
     """

@@ -11,14 +11,21 @@ __all__ = ["main"]
 
 REFUSED = 2
 """Exit code for what a user can put right: the same as for a wrong option."""
+INTERRUPTED = 130
+"""Exit code after Ctrl-C: what shells say for SIGINT."""
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run one command. An error of this package is one line on stderr and exit code 2, never a traceback."""
-    from kuglice.cli.app import build  # noqa: PLC0415 - other rooms import this package for its parts
+    """Run one command. An error of this package is one line on stderr and exit code 2, never a traceback.
 
+    Ctrl-C, where the command itself does not end in order on it, is exit code 130 and no word.
+    """
     try:
+        from kuglice.cli.app import build  # noqa: PLC0415 - other rooms import this package for its parts
+
         build()(args=arguments, prog_name="kuglice")
     except KugliceError as error:
         print(f"kuglice: {error}", file=sys.stderr)
         raise SystemExit(REFUSED) from None
+    except KeyboardInterrupt:
+        raise SystemExit(INTERRUPTED) from None

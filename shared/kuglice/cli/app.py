@@ -17,6 +17,9 @@ __all__ = ["GROUP", "build"]
 GROUP = "kuglice.commands"
 """Entry points: modules with `register(app)`."""
 OWN = ("scenes", "plan", "replay", "demo")
+ORDER = ("demo", "scenes", "plan", "render", "server", "client", "replay", "chart", "bench")
+"""Of the commands in --help: first to see what there is, then to use it, then to measure it. Others come last."""
+
 
 HELP = """Colliding balls in the plane: bit-equal on every machine, interactive, and over a network.
 
@@ -40,7 +43,12 @@ def build() -> typer.Typer:
             import_module(f"kuglice.cli.{name}").register(app)
     for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name):
         _register(app, entry)
+    app.registered_commands.sort(key=lambda command: _place(command.name))
     return app
+
+
+def _place(name: str | None) -> int:
+    return ORDER.index(name) if name in ORDER else len(ORDER)
 
 
 def _register(app: typer.Typer, entry: EntryPoint) -> None:

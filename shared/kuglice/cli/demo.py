@@ -13,6 +13,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from kuglice.cli.figures import print_figures
 from kuglice.cli.logs import STDERR
 from kuglice.demo import DemoOutcome, DemoSettings, play
+from kuglice.extras import require
 
 __all__ = ["register"]
 
@@ -36,13 +37,16 @@ def demo(
     film: Annotated[bool, typer.Option(help="Draw what the clients see.")] = True,
     as_json: Annotated[bool, typer.Option("--json", help="Print the figures as JSON.")] = False,
 ) -> None:
-    """Start a server and two clients as processes of their own and let them play.
+    """Let two clients play on a server, and compare every bit.
 
-    The clients steer through one crowd of balls over the network, each on its own copy of the world. The last
-    lines say whether every copy was equal to the server's in every bit; the exit code is 1 if one was not.
+    All are processes of their own. The clients steer through one crowd of balls over the network, each on
+    its own copy of the world. The last lines say whether every copy was equal to the server's in every
+    bit; the exit code is 1 if one was not.
     """
     # However it is ended, the processes that it started are ended too.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
+    if film:
+        require("render")
     settings = DemoSettings(
         out=out, scene=scene, bots=tuple(bot or DEFAULTS.bots), seconds=seconds, size=size, film=film
     )
@@ -56,7 +60,7 @@ def demo(
     else:
         columns_shown = {name: _column(outcome, name) for name in outcome.clients}
         print_figures(f"{scene}, {len(outcome.clients)} clients", columns_shown, as_json=False)
-        print(_verdict(outcome, out))
+        print(_verdict(outcome, out, film=film))
     if not outcome.agreed:
         raise typer.Exit(1)
 
@@ -68,20 +72,20 @@ def _column(outcome: DemoOutcome, name: str) -> dict[str, Any]:
         "hash mismatches": client["hash_mismatches"],
         "snapshots checked": client["snapshots_checked"],
         "snapshot mismatches": client["snapshot_mismatches"],
-        "inputs applied": client["inputs_accepted"],
+        "inputs accepted": client["inputs_accepted"],
         "inputs late": client["inputs_late"],
         "bytes per second received": client["bytes_per_second_received"],
         "bytes per second sent": client["bytes_per_second_sent"],
         "rollbacks": client["rollbacks"],
         "worst correction in radii": client["worst_correction_radii"],
-        "frames drawn": client.get("frames", 0),
+        **({"frames drawn": client["frames"]} if "frames" in client else {}),
     }
 
 
-def _verdict(outcome: DemoOutcome, out: Path) -> str:
+def _verdict(outcome: DemoOutcome, out: Path, *, film: bool) -> str:
     replay = outcome.verification
     lines = [
-        f"films, frames, replay and summary.json are in {out} ({outcome.seconds:.1f} s in all)",
+        f"{'films, frames, ' if film else ''}replay and summary.json are in {out} ({outcome.seconds:.1f} s in all)",
         f"server: {outcome.server['ticks']} ticks, {outcome.server['inputs_applied']} inputs applied, "
         f"{outcome.server['late_ticks']} ticks late; its recording, run again: {replay}",
     ]

@@ -11,6 +11,9 @@ from rich.table import Table
 
 __all__ = ["print_figures"]
 
+NAMES = frozenset({"epoch", "number"})
+"""Numbers that name something and count nothing: their digits are not grouped."""
+
 
 def print_figures(title: str, columns: Mapping[str, Mapping[str, Any]], *, as_json: bool) -> None:
     """`columns`: heading -> figure -> value. One column is printed (and dumped) without its heading."""
@@ -25,12 +28,14 @@ def print_figures(title: str, columns: Mapping[str, Mapping[str, Any]], *, as_js
     figures = dict.fromkeys(figure for column in columns.values() for figure in column)
     for figure in figures:
         table.add_row(
-            figure.replace("_", " "), *(_shown(column.get(figure, "")) for column in columns.values())
+            figure.replace("_", " "), *(_shown(figure, column.get(figure, "")) for column in columns.values())
         )
     Console().print(table)
 
 
-def _shown(value: object) -> str:
+def _shown(figure: str, value: object) -> str:
+    if figure in NAMES:
+        return str(value)
     if isinstance(value, float):
         return f"{value:,.3g}" if abs(value) < 1000 else f"{value:,.0f}"
     if isinstance(value, bool):

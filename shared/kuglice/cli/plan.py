@@ -26,9 +26,9 @@ def plan(
     scene: Annotated[str, typer.Argument(help="A TOML file or a built-in scene.", metavar="SCENE")],
     as_json: Annotated[bool, typer.Option("--json", help="The same figures as JSON.")] = False,
 ) -> None:
-    """Show the model that would compute a scene, with a reason for every choice.
+    """Show the model that would compute a scene, and why.
 
-    A scene may pin parts of it in its table [model].
+    Every choice has a reason. A scene may pin parts of it in its table [model].
     """
     found = find(scene)
     model = choose(found)

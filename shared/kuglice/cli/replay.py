@@ -14,6 +14,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from kuglice.cli.logs import STDERR
 from kuglice.errors import ReplayError
+from kuglice.extras import require
 from kuglice.replay import Replay, Verification
 from kuglice.world import World
 
@@ -23,6 +24,8 @@ RENDERERS = "kuglice.renderers"
 """Entry points: functions (worlds, path, fps=..., ...) that draw a run."""
 DIFFERENT = 1
 """Exit code if a hash differs."""
+CUT_OFF = 3
+"""Exit code if all hashes are equal, but the file is not whole."""
 
 
 def register(app: typer.Typer) -> None:
@@ -31,16 +34,17 @@ def register(app: typer.Typer) -> None:
 
 
 def replay(
-    file: Annotated[Path, typer.Argument(help="What `kuglice server --record` wrote.")],
+    file: Annotated[Path, typer.Argument(help="What `kuglice server --record` wrote.", metavar="FILE")],
     render: Annotated[
         Path | None, typer.Option(help="Draw it too: .mp4, .webm, .gif, or a directory for PNG frames.")
     ] = None,
     fps: Annotated[float, typer.Option(help="Frames per second of the film.", min=1.0, max=240.0)] = 30.0,
     as_json: Annotated[bool, typer.Option("--json", help="The same figures as JSON.")] = False,
 ) -> None:
-    """Run a recording again and compare each recorded hash: equal in every bit, or where it first differs.
+    """Run a recording again and compare every hash.
 
-    Ends with code 0 if all hashes are equal, with 1 if one differs, and then names the tick and the balls.
+    Ends with code 0 if all hashes are equal, with 1 if one differs, and then names the tick and the balls;
+    with 3 if all are equal as far as the file goes, but the recording was cut off there.
     """
     recording = Replay.load(file)
     film = None if render is None else _renderer()
@@ -58,6 +62,8 @@ def replay(
             print(f"{render}: {frames} frames")
     if not result.ok:
         raise typer.Exit(DIFFERENT)
+    if not result.complete:
+        raise typer.Exit(CUT_OFF)
 
 
 def _figures(file: Path, recording: Replay, result: Verification) -> dict[str, Any]:
@@ -81,6 +87,7 @@ def _figures(file: Path, recording: Replay, result: Verification) -> dict[str, A
 
 
 def _renderer() -> Callable[..., int]:
+    require("render")
     for entry in entry_points(group=RENDERERS):
         film: Callable[..., int] = entry.load()
         return film

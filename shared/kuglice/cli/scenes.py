@@ -23,7 +23,8 @@ def register(app: typer.Typer) -> None:
 
 def scenes(
     scene: Annotated[
-        list[str] | None, typer.Argument(help="Only these, by name, with parameters, or as files.")
+        list[str] | None,
+        typer.Argument(help="Only these, by name, with parameters, or as files.", metavar="[SCENE]..."),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="The same figures as JSON.")] = False,
     write: Annotated[
@@ -31,7 +32,7 @@ def scenes(
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Let --write replace files.")] = False,
 ) -> None:
-    """List the built-in scenes: balls, what each one shows, and its parameters.
+    """List the built-in scenes and their parameters.
 
     A parameter is set after the name: kuglice plan gas:n=2000,packing=0.5
     """

@@ -34,10 +34,11 @@ def bench(  # noqa: PLR0917 - typer makes options of them
     out: Annotated[Path, typer.Option(help="Where bench.json and bench.csv go.")] = Path("out/bench"),
     as_json: Annotated[bool, typer.Option("--json", help="The same figures as JSON.")] = False,
 ) -> None:
-    """Measure what ball-steps, copies and rollbacks cost, with peers on the same initial state.
+    """Measure what ball-steps, copies and rollbacks cost.
 
-    In every round all contenders of a case take their turn, so that they meet the same noise. The table gives
-    the minimum and the median of the rounds; `relative` compares minima with the first contender of the case.
+    Peers run from the same initial state. In every round all contenders of a case take their turn, so
+    that they meet the same noise. The table gives the minimum and the median of the rounds; `relative`
+    compares minima with the first contender of the case.
     """
     results = benches.Results(this_machine())
     chosen = [

@@ -40,10 +40,11 @@ def chart(  # noqa: PLR0917 - typer makes options of them
         Path | None, typer.Option(help="Write the planner's table here too, as `make chart` does.")
     ] = None,
 ) -> None:
-    """Measure and draw: work against precision, growth of cost, stability, loops, and the planner's table.
+    """Measure and draw the charts of precision and cost.
 
-    Each chart is a PNG, an SVG, and the CSV that it was drawn from. What a method cannot run is named on
-    stderr with the reason.
+    Work against precision, growth of cost, stability, loops, and the planner's table. Each chart is a
+    PNG, an SVG, and the CSV that it was drawn from. What a method cannot run is named on stderr with the
+    reason.
     """
     # Here, because matplotlib takes a second and may be missing.
     from kuglice.lab.charts import charts, scene_chart  # noqa: PLC0415
