@@ -1,5 +1,6 @@
 """Inputs: records and messages keep every bit, and each bound of the scene is checked by name."""
 
+import inspect
 import math
 
 import msgpack
@@ -245,3 +246,11 @@ def test_a_scene_without_player_rules_gives_no_ball():
     world.step([inputs.join(world.scene, world, 4)])
     assert world.players == [(4, None)]
     assert world.count == 6
+
+
+def test_signatures_are_readable():
+    assert str(inspect.signature(kg.Thrust)) == (
+        "(*, client: int = 0, sequence: int = 0, kind: Literal['thrust'] = 'thrust', x: float, y: float)"
+    )
+    assert str(inspect.signature(kg.Gravity)).startswith("(x: float, y: float, *")
+    assert "Validator" not in str(inspect.signature(kg.Scene))

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import difflib
+import inspect
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import wraps
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple, TypeVar, get_type_hints
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
@@ -105,9 +106,18 @@ def raises(raised: type[KugliceError]) -> Callable[[Schema], Schema]:
                 raise told(error, raised, schema.__name__, keys) from None
 
         schema.__init__ = __init__  # type: ignore[misc]
+        schema.__signature__ = _readable(schema)  # type: ignore[attr-defined]
         return schema
 
     return decorate
+
+
+def _readable(schema: type) -> inspect.Signature:
+    """With plain types, as a notebook shows it: validators are for the schema."""
+    types = get_type_hints(schema)
+    signature = inspect.signature(schema)
+    plain = [each.replace(annotation=types[name]) for name, each in signature.parameters.items()]
+    return signature.replace(parameters=plain, return_annotation=inspect.Signature.empty)
 
 
 def _sentence(details: ErrorDetails, keys: tuple[str, ...]) -> str:
