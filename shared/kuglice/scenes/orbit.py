@@ -33,4 +33,6 @@ def orbit(n: int = 12, strength: float = 200.0, softening: float = 0.1) -> Scene
         box=(-half * 16.0 / 9.0, -half, half * 16.0 / 9.0, half),
         forces=(Attractor(0.0, 0.0, strength, softening),),
         groups=(ListedGroup(balls=Balls(position=position, velocity=velocity, radius=0.25)),),
+        # Whoever looks at orbits looks for what a cheap integrator does to them.
+        accuracy="faithful",
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import kuglice as kg
-from kuglice.errors import ModelError, PlanError
+from kuglice.errors import ModelError, PlanError, SceneError
 from kuglice.plan import expect
 
 
@@ -103,7 +103,7 @@ class TestPins:
             kg.plan(pinned(gas(), integrator="rk4", contacts="event"))
 
     def test_of_a_name_that_is_none_are_an_error(self):
-        with pytest.raises(ModelError, match="one of"):
+        with pytest.raises(SceneError, match="one of"):
             kg.plan(pinned(gas(), contacts="sticky"))
 
 
