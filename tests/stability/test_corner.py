@@ -111,3 +111,27 @@ def test_no_tree_loses_sight_of_it(radius, contacts):
         world = roomful(radius, contacts, broadphase)
         world.run(60)
         assert world.snapshot() == brute.snapshot(), broadphase
+
+
+@given(
+    restitution=st.sampled_from([0.0, 0.1, 0.5, 0.9]),
+    gravity=st.sampled_from([(-7.0, -7.0), (-3.0, -9.0), (-1.0, -20.0)]),
+    place=st.tuples(st.floats(0.5, 1.0), st.floats(0.5, 1.0)),
+    push=st.tuples(*[st.floats(-2, 2)] * 3),
+)
+def test_two_balls_that_slide_into_a_corner_stay_in_the_box(restitution, gravity, place, push):
+    # On the floor against the side wall and each other: three contacts at rest, struck again and again.
+    world = make(
+        [[place[0], 0.5], [place[1], 1.6]],
+        [[push[0], 0.0], push[1:]],
+        box=(0, 0, 5, 5),
+        forces=[kg.Gravity(*gravity)],
+        restitution=restitution,
+    )
+    energy = world.energy
+    for _ in range(120):
+        world.step()
+        assert beyond_walls(world) < 1e-9
+        assert math.dist(*world.position) > 1 - 1e-9
+        assert world.energy <= energy + 1e-9
+        energy = world.energy

@@ -122,3 +122,29 @@ def test_a_pack_at_085_stays_hard_with_event():
     # Caged: two seconds at unit speed, and nobody has changed places.
     assert world.collisions > 50 * world.count
     assert np.abs(world.position - world.scene.balls.position).max() < 1.0
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.5, 0.8, 1.0])
+@pytest.mark.parametrize("seed", range(4))
+def test_balls_drawn_together_between_kicks_overlap_by_a_fall_of_one_tick_at_most(restitution, seed):
+    # A force of place is a kick per tick: what rests is held on straight paths, which leave the true ones by
+    # a h^2 / 2. The pull is largest at softening / sqrt(2): s 2 / (3 sqrt(3) softening^2), plus gravity.
+    strength, softening, tick_rate = 20.0, 0.5, 60.0
+    pull = strength * 2 / (3 * math.sqrt(3) * softening**2)
+    random = np.random.default_rng(seed)
+    place = np.stack([random.uniform(0.5, 3.5, 5), 0.5 + 1.1 * np.arange(5)], axis=1)
+    world = make(
+        place,
+        random.normal(size=(5, 2)),
+        radius=0.4,
+        mass=random.uniform(0.1, 10, 5),
+        box=(0, 0, 4, 8),
+        forces=[kg.Gravity(0.0, -10.0), kg.Attractor(2.0, 1.0, strength, softening)],
+        restitution=restitution,
+        tick_rate=tick_rate,
+    )
+    fall = (pull + 10.0) / tick_rate**2 / 2
+    for _ in range(600):
+        world.step()
+        assert deepest(world) * 0.4 < fall
+        assert beyond_walls(world) < fall
