@@ -27,7 +27,7 @@ def everything() -> kg.Scene:
     grid = np.stack(np.meshgrid(np.arange(columns), np.arange(rows)), axis=-1).reshape(-1, 2).astype(float)
     position = 1.0 + 2.0 * grid
     count = len(position)
-    radius = 0.2 + 0.3 * _core.random_uniform(7, 0, 0, count)
+    radius = 0.2 + 0.75 * _core.random_uniform(7, 0, 0, count)
     velocity = 8.0 * (_core.random_uniform(7, 1, 0, 2 * count).reshape(-1, 2) - 0.5)
     mass = 3.0 * radius * radius
     mass[count // 2], velocity[count // 2] = np.inf, 0.0
@@ -39,10 +39,10 @@ def everything() -> kg.Scene:
         forces=[
             kg.Gravity(0.0, -9.81),
             kg.Drag(0.1),
-            kg.Attractor(9.0, 7.0, 10.0, 1.5),
+            kg.Attractor(9.0, 7.0, 30.0, 0.5),
             kg.Spring(4.0, 4.0, 0.3),
             kg.ThrustForce(),
-            kg.AttractForce(3.0),
+            kg.AttractForce(0.5),
         ],
     )
 
