@@ -73,10 +73,11 @@ impl Law {
             again,
             alone,
         } = meeting;
+        // Of either sign: a contact that rounding has left a hair too early would not be predicted again.
+        if pressing > 0.0 && approach * approach <= 2.0 * pressing * ROUNDING_FALL * radius {
+            return Fate::Rest;
+        }
         if approach > 0.0 {
-            if pressing > 0.0 && approach * approach <= 2.0 * pressing * ROUNDING_FALL * radius {
-                return Fate::Rest;
-            }
             if self.restitution == 1.0 {
                 return Fate::Bounce(1.0);
             }
@@ -90,8 +91,7 @@ impl Law {
             });
         }
         match motion {
-            Motion::Kicked if pressing > 0.0 && approach < 0.0 => Fate::Hold,
-            _ if pressing > 0.0 && approach == 0.0 => Fate::Rest,
+            Motion::Kicked if pressing > 0.0 => Fate::Hold,
             _ => Fate::Pass,
         }
     }

@@ -108,7 +108,7 @@ impl EventDriven {
         let mut count = 0;
         while let Some(event) = self.queue.next(&self.paths.hits) {
             count += 1;
-            if count > EVENT_LIMIT {
+            if count + self.paths.supports.sweeps() > EVENT_LIMIT {
                 return Err(event_limit(substep, &event));
             }
             let first = event.first as usize;

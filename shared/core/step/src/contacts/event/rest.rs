@@ -68,11 +68,18 @@ impl Support {
 #[derive(Default)]
 pub(super) struct Supports {
     all: Vec<Support>,
+    /// Sweeps in this substep: they are work like events, and count with them.
+    sweeps: u64,
 }
 
 impl Supports {
     pub(super) fn clear(&mut self) {
         self.all.clear();
+        self.sweeps = 0;
+    }
+
+    pub(super) fn sweeps(&self) -> u64 {
+        self.sweeps
     }
 
     pub(super) fn involve(&self, index: usize) -> bool {
@@ -113,6 +120,7 @@ impl Supports {
             support.act(balls, accelerations, support.force);
         }
         for _ in 0..MOST_SWEEPS {
+            self.sweeps += 1;
             let mut change: f64 = 0.0;
             for support in &mut self.all {
                 change = change.max(support.relax(balls, accelerations));
