@@ -2,7 +2,7 @@
 //! let both go on for the rest of the tick. The relative motion is taken as straight, so an isolated collision comes
 //! out exact; whatever hits twice in one tick does not.
 
-use super::exchange::{Shares, exchange, normal};
+use super::exchange::{Shares, SharesOf, exchange, normal};
 use super::{Contacts, Substep, sorted_pairs};
 use crate::broadphase::Pair;
 use crate::force::Field;
@@ -28,14 +28,10 @@ impl Contacts for Backtrack {
             *acceleration = (velocity - *acceleration) * (1.0 / dt);
         }
         sorted_pairs(balls, substep.broadphase, &mut self.pairs);
-        let alike = balls
-            .uniform()
-            .map(|shape| Shares::new(shape.mass, shape.mass, rules.restitution()));
+        let shares = SharesOf::new(balls, rules.restitution());
         for &(first, second) in &self.pairs {
             let (first, second) = (first as usize, second as usize);
-            let shares = alike
-                .unwrap_or_else(|| Shares::new(balls.mass[first], balls.mass[second], rules.restitution()));
-            if let Some(shares) = shares
+            if let Some(shares) = shares.pair(balls, first, second)
                 && collide(balls, first, second, shares, dt)
             {
                 substep.counters.collisions += 1;

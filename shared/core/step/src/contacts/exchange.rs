@@ -1,6 +1,6 @@
 //! The exchange of normal velocities between two balls.
 
-use crate::Vec2;
+use crate::{Balls, Vec2};
 
 /// The normal of two balls with coincident centres points from the lower id to the higher, to the right.
 const COINCIDENT_NORMAL: Vec2 = Vec2::new(1.0, 0.0);
@@ -38,6 +38,27 @@ impl Shares {
     }
 }
 
+/// The shares of any pair of a world: computed once if all balls weigh the same.
+pub(super) struct SharesOf {
+    restitution: f64,
+    alike: Option<Option<Shares>>,
+}
+
+impl SharesOf {
+    pub(super) fn new(balls: &Balls, restitution: f64) -> SharesOf {
+        let alike = balls
+            .uniform()
+            .map(|shape| Shares::new(shape.mass, shape.mass, restitution));
+        SharesOf { restitution, alike }
+    }
+
+    #[inline]
+    pub(super) fn pair(&self, balls: &Balls, first: usize, second: usize) -> Option<Shares> {
+        self.alike
+            .unwrap_or_else(|| Shares::new(balls.mass[first], balls.mass[second], self.restitution))
+    }
+}
+
 /// From the first centre to the second, of any length but 0.
 #[inline]
 pub(super) fn normal(first: Vec2, second: Vec2) -> Vec2 {
@@ -49,18 +70,29 @@ pub(super) fn normal(first: Vec2, second: Vec2) -> Vec2 {
     }
 }
 
-/// Exchanges the velocities of an approaching pair along `normal`; false if the pair does not approach.
+/// The velocities of a pair after an exchange along `normal`; `approach` is (v1 - v2) . normal.
 ///
 /// With n the unit normal and u1, u2 the velocities along it, u1' = (u1 (m1 - e m2) + (1 + e) m2 u2) / (m1 + m2),
 /// and the same with the balls swapped; the tangential parts stay. Written as u1' = u1 - s1 (u1 - u2), which needs
 /// no unit vector (d (d . w) / d^2 = n (n . w)) and gives both balls the same impulse but for one rounding each.
 #[inline]
+pub(super) fn transfer(
+    normal: Vec2,
+    approach: f64,
+    shares: Shares,
+    first: Vec2,
+    second: Vec2,
+) -> (Vec2, Vec2) {
+    let along = normal * (approach / normal.square());
+    (first - along * shares.first, second + along * shares.second)
+}
+
+/// Exchanges the velocities of an approaching pair; false if the pair does not approach.
+#[inline]
 pub(super) fn exchange(normal: Vec2, shares: Shares, first: &mut Vec2, second: &mut Vec2) -> bool {
     let approach = (*first - *second).dot(normal);
     if approach > 0.0 {
-        let along = normal * (approach / normal.square());
-        *first -= along * shares.first;
-        *second += along * shares.second;
+        (*first, *second) = transfer(normal, approach, shares, *first, *second);
         return true;
     }
     false

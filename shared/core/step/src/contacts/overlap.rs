@@ -1,7 +1,7 @@
 //! `overlap`: move, then exchange the velocities of every approaching pair that overlaps, in order of (lower id,
 //! higher id). Positions are left alone. Cheap; late by up to a tick, and blind to what passed within one.
 
-use super::exchange::{Shares, exchange, normal};
+use super::exchange::{SharesOf, exchange, normal};
 use super::{Contacts, Substep, sorted_pairs};
 use crate::broadphase::Pair;
 use crate::{Error, walls};
@@ -13,18 +13,15 @@ pub(super) struct Overlap {
 
 impl Contacts for Overlap {
     fn advance(&mut self, substep: &mut Substep<'_>) -> Result<(), Error> {
-        let restitution = substep.rules.restitution();
         let balls = &mut *substep.balls;
         (substep.integrator.advance)(balls, substep.field, substep.time, substep.dt);
         sorted_pairs(balls, substep.broadphase, &mut self.pairs);
-        let alike = balls
-            .uniform()
-            .map(|shape| Shares::new(shape.mass, shape.mass, restitution));
+        let shares = SharesOf::new(balls, substep.rules.restitution());
         for &(first, second) in &self.pairs {
             let (first, second) = (first as usize, second as usize);
-            let shares =
-                alike.unwrap_or_else(|| Shares::new(balls.mass[first], balls.mass[second], restitution));
-            let Some(shares) = shares else { continue };
+            let Some(shares) = shares.pair(balls, first, second) else {
+                continue;
+            };
             let along = normal(balls.position[first], balls.position[second]);
             let (mut v1, mut v2) = (balls.velocity[first], balls.velocity[second]);
             if exchange(along, shares, &mut v1, &mut v2) {

@@ -17,7 +17,7 @@
 use super::paths::{Motion, Paths};
 use super::rest::Support;
 use crate::Balls;
-use crate::contacts::exchange::{Shares, normal};
+use crate::contacts::exchange::{Shares, normal, transfer};
 use crate::walls::Wall;
 
 /// Contact time, as a part of the substep.
@@ -144,8 +144,7 @@ impl Law {
         let Some(shares) = Shares::new(balls.mass[first], balls.mass[second], restitution) else {
             return false;
         };
-        let impulse = along * (approach / along.square());
-        let (w1, w2) = (v1 - impulse * shares.first, v2 + impulse * shares.second);
+        let (w1, w2) = transfer(along, approach, shares, v1, v2);
         let bounces = matches!(fate, Fate::Bounce(_));
         if bounces && (w1 - w2).dot(along) > 0.5 * approach {
             // An approach below the last bits of the velocities cannot be exchanged: it is rounding, left alone.
@@ -188,7 +187,7 @@ impl Law {
             radius: balls.radius[index],
             slow: paths.gain(index),
             again: self.is_again(paths, index, time),
-            alone: paths.hits[index] == 0 && !paths.touched[index],
+            alone: paths.is_alone(index),
         };
         let (after, support) = match self.fate(&meeting, paths.motion) {
             Fate::Bounce(restitution) => (wall.with_normal(velocity, restitution * approach), None),

@@ -36,8 +36,8 @@ pub(super) struct Paths {
     /// The same as it was at the start. Unused if straight.
     pub(super) kicks: Vec<Vec2>,
     /// Balls that have another so near at the start that both could meet at the speed which one substep's
-    /// acceleration gives. All false at restitution 1, where nobody asks.
-    pub(super) touched: Vec<bool>,
+    /// acceleration gives. Empty without forces and at restitution 1, where the answer would change nothing.
+    touched: Vec<bool>,
     /// How far apart a pair may be to count as touching.
     margin: f64,
     pub(super) supports: Supports,
@@ -71,7 +71,6 @@ impl Paths {
         self.deferred.clear();
         self.supports.clear();
         self.touched.clear();
-        self.touched.resize(count, false);
         self.margin = 0.0;
         if motion == Motion::Straight {
             return;
@@ -88,6 +87,7 @@ impl Paths {
         self.kicks.extend_from_slice(&self.acceleration);
         if !elastic {
             self.margin = (0..count).fold(0.0, |most: f64, index| most.max(self.gain(index))) * length;
+            self.touched.resize(count, false);
         }
     }
 
@@ -121,6 +121,11 @@ impl Paths {
             self.touched[first] = true;
             self.touched[second] = true;
         }
+    }
+
+    /// Whether a ball neither touched another at the start of the substep nor was hit in it.
+    pub(super) fn is_alone(&self, index: usize) -> bool {
+        self.hits[index] == 0 && self.touched.get(index) == Some(&false)
     }
 
     /// Acceleration along the path.
