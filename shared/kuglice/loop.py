@@ -22,6 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from kuglice.blending import blend
 from kuglice.errors import LimitError
 from kuglice.inputs import Input
 from kuglice.world import World
@@ -72,6 +73,10 @@ class Loop(ABC):
         self._clock = clock
         self._longest = round(longest * SECOND)
         self._last = clock()
+        self._begin()
+
+    def _begin(self) -> None:  # noqa: B027 - a loop may need nothing of its own
+        """What a kind of loop needs of its own, once the world is there."""
 
     def frame(self) -> Frame:
         """Bring the world up to now."""
@@ -109,17 +114,10 @@ class Variable(Loop):
 class Fixed(Loop):
     """Steps of 1 / tick_rate; the time that is left over waits in an accumulator."""
 
-    def __init__(
-        self,
-        world: World,
-        *,
-        inputs: Inputs | None = None,
-        clock: Clock = time.monotonic_ns,
-        longest: float = LONGEST,
-    ) -> None:
-        super().__init__(world, inputs=inputs, clock=clock, longest=longest)
+    def _begin(self) -> None:
+        super()._begin()
         # Nanoseconds times the rate's numerator: whole numbers, so that no split of time rounds differently.
-        self._scale, denominator = world.scene.tick_rate.as_integer_ratio()
+        self._scale, denominator = self.world.scene.tick_rate.as_integer_ratio()
         self._tick = SECOND * denominator
         self._waiting = 0
 
@@ -142,16 +140,9 @@ class Fixed(Loop):
 class Interpolated(Fixed):
     """Fixed steps, drawn between the last two states, one tick late and without jerks."""
 
-    def __init__(
-        self,
-        world: World,
-        *,
-        inputs: Inputs | None = None,
-        clock: Clock = time.monotonic_ns,
-        longest: float = LONGEST,
-    ) -> None:
-        super().__init__(world, inputs=inputs, clock=clock, longest=longest)
-        self.previous = world.clone()
+    def _begin(self) -> None:
+        super()._begin()
+        self.previous = self.world.clone()
         """The state one tick ago: a copy."""
 
     def _before_step(self, left: int) -> None:
@@ -161,11 +152,5 @@ class Interpolated(Fixed):
     @property
     def position(self) -> NDArray[np.float64]:
         """(n, 2) in the world's id order: alpha current + (1 - alpha) previous; new balls where they are."""
-        alpha = self._alpha()
-        drawn = self.world.position
-        identity, before = self.world.id, self.previous.id
-        if np.array_equal(identity, before):
-            return alpha * drawn + (1.0 - alpha) * self.previous.position
-        _, here, there = np.intersect1d(identity, before, assume_unique=True, return_indices=True)
-        drawn[here] = alpha * drawn[here] + (1.0 - alpha) * self.previous.position[there]
-        return drawn
+        before, now = self.previous, self.world
+        return blend(before.id, before.position, now.id, now.position, self._alpha())

@@ -10,7 +10,8 @@ from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 from kuglice import _core
 from kuglice.errors import ModelError
 from kuglice.schema.numbers import Count, Positive
-from kuglice.schema.problems import Problem, raises, refuse, told
+from kuglice.schema.problems import raises, refuse, told
+from kuglice.schema.registered import unregistered
 
 __all__ = ["Model"]
 
@@ -34,19 +35,7 @@ class Model(BaseModel):
 
     @model_validator(mode="after")
     def _registered(self) -> Self:
-        tables = {
-            "integrator": _core.INTEGRATORS,
-            "contacts": _core.CONTACTS,
-            "broadphase": _core.BROADPHASES,
-        }
-        refuse(
-            "Model",
-            [
-                Problem((part,), getattr(self, part), f"must be one of {', '.join(names)}")
-                for part, names in tables.items()
-                if getattr(self, part) not in names
-            ],
-        )
+        refuse("Model", unregistered(self))
         self.core()
         return self
 

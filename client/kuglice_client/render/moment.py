@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from typing import Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
+
+from kuglice import World
+from kuglice.blending import blend
 
 __all__ = ["HashState", "Moment", "Verdict", "between"]
 
@@ -46,6 +49,22 @@ class Moment:
     nodes: Floats | None = None
     """(k, 4) left, bottom, right, top of quadtree nodes."""
 
+    @classmethod
+    def of(cls, world: World, hash_state: HashState | None = None, *, nodes: bool = False) -> Self:
+        """Copies of what a world shows now."""
+        return cls(
+            position=world.position,
+            velocity=world.velocity,
+            radius=world.radius,
+            id=world.id,
+            tick=world.tick,
+            time=world.time,
+            fixed=np.isinf(world.mass),
+            players={ball: client for client, ball in world.players if ball is not None},
+            hash_state=hash_state,
+            nodes=world.nodes() if nodes else None,
+        )
+
 
 def between(previous: Moment, current: Moment, alpha: float) -> Moment:
     """The moment alpha * current + (1 - alpha) * previous, alpha within 0 and 1.
@@ -53,12 +72,8 @@ def between(previous: Moment, current: Moment, alpha: float) -> Moment:
     A ball that is new is drawn where it is now, one that is gone is not drawn. The rest is the current
     moment's.
     """
-    time = alpha * current.time + (1 - alpha) * previous.time
-    if np.array_equal(previous.id, current.id):
-        position = alpha * current.position + (1 - alpha) * previous.position
-        return replace(current, position=position, time=time)
-    shared, here, there = np.intersect1d(current.id, previous.id, assume_unique=True, return_indices=True)
-    position = current.position.copy()
-    if len(shared):
-        position[here] = alpha * current.position[here] + (1 - alpha) * previous.position[there]
-    return replace(current, position=position, time=time)
+    return replace(
+        current,
+        position=blend(previous.id, previous.position, current.id, current.position, alpha),
+        time=alpha * current.time + (1 - alpha) * previous.time,
+    )

@@ -57,21 +57,9 @@ class Renderer:
         `hash_state` is what is known about the world's agreement with a server; without it the overlay shows
         the hash of this world.
         """
-        mass = world.mass
         if hash_state is None and "tick" in self._names:
             hash_state = HashState(world.state_hash, world.tick)
-        return Moment(
-            position=world.position,
-            velocity=world.velocity,
-            radius=world.radius,
-            id=world.id,
-            tick=world.tick,
-            time=world.time,
-            fixed=np.isinf(mass),
-            players={ball: client for client, ball in world.players if ball is not None},
-            hash_state=hash_state,
-            nodes=world.nodes() if "tree" in self._names else None,
-        )
+        return Moment.of(world, hash_state, nodes="tree" in self._names)
 
     def frame(self, moment: Moment) -> Pixels:
         """(height, width, 3) bytes. The array is the renderer's own: the next frame draws over it."""

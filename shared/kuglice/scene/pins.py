@@ -6,10 +6,10 @@ from typing import Self
 
 from pydantic import BaseModel, ConfigDict, model_validator
 
-from kuglice import _core
 from kuglice.errors import SceneError
 from kuglice.schema.numbers import Count, Positive
-from kuglice.schema.problems import Problem, raises, refuse
+from kuglice.schema.problems import raises, refuse
+from kuglice.schema.registered import unregistered
 
 __all__ = ["ModelPins"]
 
@@ -28,17 +28,5 @@ class ModelPins(BaseModel):
 
     @model_validator(mode="after")
     def _registered(self) -> Self:
-        tables = {
-            "integrator": _core.INTEGRATORS,
-            "contacts": _core.CONTACTS,
-            "broadphase": _core.BROADPHASES,
-        }
-        refuse(
-            "ModelPins",
-            [
-                Problem((part,), getattr(self, part), f"must be one of {', '.join(names)}")
-                for part, names in tables.items()
-                if getattr(self, part) not in (None, *names)
-            ],
-        )
+        refuse("ModelPins", unregistered(self))
         return self
