@@ -131,7 +131,7 @@ class World:
 
 @final
 class Lease:
-    """Read-only arrays over a world's own memory, in id order."""
+    """Read-only arrays over a world's own memory, in its order: `id` says whose numbers they are."""
 
     position: Floats
     velocity: Floats

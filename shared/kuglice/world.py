@@ -103,7 +103,10 @@ class World:
 
     @contextmanager
     def view(self) -> Iterator[_core.Lease]:
-        """Lend read-only zero-copy arrays: position, velocity, radius, mass, id; no stepping meanwhile."""
+        """Lend read-only zero-copy arrays: position, velocity, radius, mass, id; no stepping meanwhile.
+
+        They are in the order of the memory, which keeps neighbours together: `id` says whose numbers they are.
+        """
         lease = self._core.lend()
         try:
             yield lease

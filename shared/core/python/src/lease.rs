@@ -32,7 +32,7 @@ struct Arrays {
     id: Py<PyArray1<u64>>,
 }
 
-/// Read-only arrays over a world's own memory, in id order.
+/// Read-only arrays over a world's own memory, in its order: `id` says whose numbers they are.
 #[pyclass(module = "kuglice._core")]
 pub struct Lease {
     arrays: Option<Arrays>,

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use kuglice_step::{NewBall, Recording, Vec2, read_inputs};
+use kuglice_step::{Balls, NewBall, Recording, Vec2, read_inputs};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -52,8 +52,24 @@ fn pairs_to_array<'py, T: numpy::Element + Copy>(
     flat.reshape([rows.len(), 2]).expect("two numbers a row")
 }
 
-fn vectors<'py>(py: Python<'py>, vectors: &[Vec2]) -> Bound<'py, PyArray2<f64>> {
-    let rows: Vec<[f64; 2]> = vectors.iter().map(|v| [v.x, v.y]).collect();
+/// One number per ball, in id order.
+fn numbers<'py, T: numpy::Element + Copy>(
+    py: Python<'py>,
+    balls: &Balls,
+    numbers: &[T],
+) -> Bound<'py, PyArray1<T>> {
+    if balls.is_by_id() {
+        return PyArray1::from_slice(py, numbers);
+    }
+    PyArray1::from_iter(py, balls.by_id().map(|index| numbers[index]))
+}
+
+/// One vector per ball, in id order.
+fn vectors<'py>(py: Python<'py>, balls: &Balls, vectors: &[Vec2]) -> Bound<'py, PyArray2<f64>> {
+    let rows: Vec<[f64; 2]> = balls
+        .by_id()
+        .map(|index| [vectors[index].x, vectors[index].y])
+        .collect();
     pairs_to_array(py, &rows)
 }
 
@@ -193,27 +209,42 @@ impl World {
 
     #[getter]
     fn id<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u64>> {
-        PyArray1::from_slice(py, &self.inner.state().balls.id)
+        {
+            let balls = &self.inner.state().balls;
+            numbers(py, balls, &balls.id)
+        }
     }
 
     #[getter]
     fn position<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        vectors(py, &self.inner.state().balls.position)
+        {
+            let balls = &self.inner.state().balls;
+            vectors(py, balls, &balls.position)
+        }
     }
 
     #[getter]
     fn velocity<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        vectors(py, &self.inner.state().balls.velocity)
+        {
+            let balls = &self.inner.state().balls;
+            vectors(py, balls, &balls.velocity)
+        }
     }
 
     #[getter]
     fn radius<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, &self.inner.state().balls.radius)
+        {
+            let balls = &self.inner.state().balls;
+            numbers(py, balls, &balls.radius)
+        }
     }
 
     #[getter]
     fn mass<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, &self.inner.state().balls.mass)
+        {
+            let balls = &self.inner.state().balls;
+            numbers(py, balls, &balls.mass)
+        }
     }
 
     #[getter]

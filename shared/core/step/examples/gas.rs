@@ -1,4 +1,4 @@
-//! A gas at packing 0.3, run for a profiler: `gas BALLS TICKS CONTACTS BROADPHASE [mixed|gravity]`.
+//! A gas at packing 0.3, run for a profiler: `gas BALLS TICKS CONTACTS BROADPHASE [mixed|gravity|shuffled]`.
 //!
 //! Prints nanoseconds per ball-step and the final hash.
 
@@ -17,7 +17,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let columns = f64::from(count).sqrt().ceil();
     let pitch = 0.5 * (std::f64::consts::PI / 0.3).sqrt();
     let side = columns * pitch;
-    let balls: Vec<NewBall> = (0..count)
+    // As balls that were placed at random: their ids say nothing of where they are.
+    let mut places: Vec<u32> = (0..count).collect();
+    if variant == "shuffled" {
+        places.sort_by_key(|&i| random::uniform(1, 3, u64::from(i)).to_bits());
+    }
+    let balls: Vec<NewBall> = places
+        .into_iter()
         .map(|i| {
             let (row, column) = ((f64::from(i) / columns).floor(), f64::from(i) % columns);
             let number = |stream| random::uniform(1, stream, u64::from(i)) - 0.5;

@@ -1,5 +1,6 @@
-//! The balls, as a structure of arrays in id order.
+//! The balls, as a structure of arrays. Their order in memory means nothing: see [`order`](crate::order).
 
+use crate::order::Order;
 use crate::{Error, Vec2};
 
 /// Radius and mass that all balls share; where there is one, hot loops read neither array.
@@ -52,8 +53,8 @@ impl NewBall {
     }
 }
 
-/// All balls of a world. Index order is id order.
-#[derive(Debug, Default, PartialEq)]
+/// All balls of a world, in an order of which nothing but speed may depend.
+#[derive(Debug, Default)]
 pub struct Balls {
     /// Centres.
     pub position: Vec<Vec2>,
@@ -63,9 +64,26 @@ pub struct Balls {
     pub radius: Vec<f64>,
     /// Masses; infinite for fixed balls.
     pub mass: Vec<f64>,
-    /// Ids, ascending, never used twice.
+    /// Ids, never used twice.
     pub id: Vec<u64>,
+    order: Order,
     uniform: Option<Uniform>,
+}
+
+impl PartialEq for Balls {
+    fn eq(&self, other: &Balls) -> bool {
+        let all = |balls: &Balls, index: usize| {
+            (
+                (balls.id[index], balls.position[index], balls.velocity[index]),
+                (balls.radius[index], balls.mass[index]),
+            )
+        };
+        self.len() == other.len()
+            && self
+                .by_id()
+                .zip(other.by_id())
+                .all(|(here, there)| all(self, here) == all(other, there))
+    }
 }
 
 // Written out so that clone_from keeps the memory that is there: rollback copies a world many times a second.
@@ -77,16 +95,21 @@ impl Clone for Balls {
             radius: self.radius.clone(),
             mass: self.mass.clone(),
             id: self.id.clone(),
+            order: self.order.clone(),
             uniform: self.uniform,
         }
     }
 
     fn clone_from(&mut self, source: &Balls) {
+        let alike = source.uniform.is_some() && self.uniform == source.uniform && self.len() == source.len();
         self.position.clone_from(&source.position);
         self.velocity.clone_from(&source.velocity);
-        self.radius.clone_from(&source.radius);
-        self.mass.clone_from(&source.mass);
+        if !alike {
+            self.radius.clone_from(&source.radius);
+            self.mass.clone_from(&source.mass);
+        }
         self.id.clone_from(&source.id);
+        self.order.clone_from(&source.order);
         self.uniform = source.uniform;
     }
 }
@@ -112,7 +135,7 @@ impl Balls {
 
     /// Adds a ball; `id` must be above all ids present.
     pub fn push(&mut self, id: u64, ball: NewBall) {
-        debug_assert!(self.id.last().is_none_or(|&last| last < id));
+        debug_assert!(self.by_id().next_back().is_none_or(|last| self.id[last] < id));
         let shape = Uniform {
             radius: ball.radius,
             mass: ball.mass,
@@ -126,23 +149,60 @@ impl Balls {
         self.velocity.push(ball.velocity);
         self.radius.push(ball.radius);
         self.mass.push(ball.mass);
+        self.order.push(self.id.len());
         self.id.push(id);
     }
 
-    /// Removes the ball at `index`, keeping id order.
+    /// Removes the ball at `index`; those behind it move up.
     pub fn remove(&mut self, index: usize) {
         self.position.remove(index);
         self.velocity.remove(index);
         self.radius.remove(index);
         self.mass.remove(index);
         self.id.remove(index);
+        self.order.remove(index);
         self.uniform = self.find_uniform();
+    }
+
+    /// All indices, in the order of the ids.
+    pub fn by_id(&self) -> impl DoubleEndedIterator<Item = usize> + ExactSizeIterator + Clone + '_ {
+        (0..self.len()).map(|rank| self.order.index(rank))
+    }
+
+    /// Whether index order is id order.
+    #[must_use]
+    pub fn is_by_id(&self) -> bool {
+        self.order.is_by_id()
     }
 
     /// Where the ball with this id is stored.
     #[must_use]
     pub fn index_of(&self, id: u64) -> Option<usize> {
-        self.id.binary_search(&id).ok()
+        let (mut low, mut high) = (0, self.len());
+        while low < high {
+            let middle = low.midpoint(high);
+            if self.id[self.order.index(middle)] < id {
+                low = middle + 1;
+            } else {
+                high = middle;
+            }
+        }
+        (low < self.len())
+            .then(|| self.order.index(low))
+            .filter(|&index| self.id[index] == id)
+    }
+
+    /// Moves the balls in memory: the one from index `order[i]` is at index i afterwards. `spare` lends its memory.
+    pub(crate) fn arrange(&mut self, order: &[u32], spare: &mut Balls) {
+        debug_assert_eq!(order.len(), self.len());
+        rearrange(&mut self.position, &mut spare.position, order);
+        rearrange(&mut self.velocity, &mut spare.velocity, order);
+        rearrange(&mut self.id, &mut spare.id, order);
+        if self.uniform.is_none() {
+            rearrange(&mut self.radius, &mut spare.radius, order);
+            rearrange(&mut self.mass, &mut spare.mass, order);
+        }
+        self.order.moved(spare.order.invert(order));
     }
 
     /// Whether some ball is fixed.
@@ -164,7 +224,7 @@ impl Balls {
         if both(&self.position) && both(&self.velocity) {
             return None;
         }
-        (0..self.len())
+        self.by_id()
             .find(|&i| !(self.position[i].is_finite() && self.velocity[i].is_finite()))
             .map(|i| self.id[i])
     }
@@ -178,4 +238,10 @@ impl Balls {
             self.radius.iter().all(|&r| r == shape.radius) && self.mass.iter().all(|&m| m == shape.mass);
         same.then_some(shape)
     }
+}
+
+fn rearrange<T: Copy>(all: &mut Vec<T>, spare: &mut Vec<T>, order: &[u32]) {
+    spare.clear();
+    spare.extend(order.iter().map(|&index| all[index as usize]));
+    std::mem::swap(all, spare);
 }

@@ -5,7 +5,8 @@ use crate::{Rules, State, Vec2};
 
 fn bodies(state: &State) -> impl Iterator<Item = Body> + '_ {
     let balls = &state.balls;
-    (0..balls.len())
+    balls
+        .by_id()
         .map(|index| Body {
             index,
             mass: balls.mass[index],

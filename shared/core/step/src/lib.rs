@@ -29,6 +29,7 @@ mod hash;
 mod input;
 pub mod integrator;
 mod model;
+mod order;
 pub mod random;
 mod recording;
 mod rules;

@@ -35,20 +35,20 @@ pub(crate) fn write(state: &State) -> Vec<u8> {
         }
         None => {
             writer.u8(0);
-            for (&radius, &mass) in balls.radius.iter().zip(&balls.mass) {
-                writer.f64(radius);
-                writer.f64(mass);
+            for index in balls.by_id() {
+                writer.f64(balls.radius[index]);
+                writer.f64(balls.mass[index]);
             }
         }
     }
-    for &id in &balls.id {
-        writer.u64(id);
+    for index in balls.by_id() {
+        writer.u64(balls.id[index]);
     }
-    for &position in &balls.position {
-        writer.vec2(position);
+    for index in balls.by_id() {
+        writer.vec2(balls.position[index]);
     }
-    for &velocity in &balls.velocity {
-        writer.vec2(velocity);
+    for index in balls.by_id() {
+        writer.vec2(balls.velocity[index]);
     }
     writer.count(state.players.len());
     for player in &state.players {

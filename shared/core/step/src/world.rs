@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::broadphase::{Broadphase, Pair};
-use crate::contacts::{self, Contacts, Substep};
+use crate::contacts::{Contacts, Pairs, Substep};
 use crate::force::{Field, HeldNow};
 use crate::{Error, Input, Model, NewBall, Rules, State, Vec2, apply, energy, hash, snapshot};
 
@@ -17,11 +17,21 @@ pub struct World {
     /// The last whole tick, to go back to if a step fails.
     last: State,
     inputs: Vec<Input>,
+    /// Ticks until the balls are put in spatial order again.
+    until_arranged: u32,
 }
+
+/// Balls that are fewer than this stay in id order: the nearest cache holds them all.
+const FEW_BALLS: usize = 2048;
+/// Ticks after which neighbours have drifted so far apart in memory that arranging them pays.
+const ARRANGED_TICKS: u32 = 64;
 
 impl Clone for World {
     fn clone(&self) -> World {
-        World::with_state(Arc::clone(&self.rules), self.model.clone(), self.state.clone())
+        World {
+            until_arranged: self.until_arranged,
+            ..World::with_state(Arc::clone(&self.rules), self.model.clone(), self.state.clone())
+        }
     }
 }
 
@@ -67,6 +77,7 @@ impl World {
             broadphase,
             last: State::default(),
             inputs: Vec::new(),
+            until_arranged: 0,
         }
     }
 
@@ -77,6 +88,7 @@ impl World {
             return;
         }
         self.state.clone_from(&other.state);
+        self.until_arranged = other.until_arranged;
     }
 
     /// One tick: inputs, forces, move, contacts, walls. `dt` replaces the scene's tick length.
@@ -99,8 +111,26 @@ impl World {
         let done = self.try_step(inputs, dt);
         if done.is_err() {
             self.go_back(!inputs.is_empty());
+        } else {
+            self.arrange();
         }
         done
+    }
+
+    /// Puts neighbours near each other in memory, now and then. No result depends on it.
+    fn arrange(&mut self) {
+        let balls = &mut self.state.balls;
+        if balls.len() < FEW_BALLS || !self.contacts.takes_any_order() {
+            return;
+        }
+        if self.until_arranged > 0 {
+            self.until_arranged -= 1;
+            return;
+        }
+        self.until_arranged = ARRANGED_TICKS;
+        if let Some(order) = self.broadphase.order() {
+            balls.arrange(order, &mut self.last.balls);
+        }
     }
 
     /// Back to the last whole tick. One without inputs has changed nothing but these.
@@ -205,11 +235,11 @@ impl World {
         energy::momentum(&self.state)
     }
 
-    /// All pairs that overlap now, as indices, in order.
+    /// All pairs that overlap now, as indices, the lower id first, in order of the ids.
     pub fn overlapping(&mut self) -> Vec<Pair> {
-        let mut pairs = Vec::new();
-        contacts::sorted_pairs(&self.state.balls, &mut *self.broadphase, &mut pairs);
-        pairs
+        let mut pairs = Pairs::default();
+        pairs.find(&self.state.balls, &mut *self.broadphase);
+        pairs.sorted(&self.state.balls)
     }
 
     /// Rectangles of the occupied nodes of a quadtree over the balls as they are now.
@@ -223,7 +253,7 @@ impl World {
         let model = Model::new("verlet", "overlap", name, 1, self.model.smallest_node());
         let Ok(model) = model else { return Vec::new() };
         let mut tree = model.make_broadphase(&self.rules);
-        contacts::sorted_pairs(&self.state.balls, &mut *tree, &mut Vec::new());
+        Pairs::default().find(&self.state.balls, &mut *tree);
         tree.nodes()
     }
 }

@@ -212,6 +212,13 @@ impl Broadphase for LooseQuadtree {
         });
     }
 
+    fn order(&mut self) -> Option<&[u32]> {
+        self.cells.clear();
+        self.cells
+            .extend(self.sorted.tag[..self.count].iter().map(|tag| tag.index));
+        Some(&self.cells)
+    }
+
     fn nodes(&self) -> Vec<[f64; 4]> {
         let mut nodes = Vec::new();
         for level in self.levels.all() {

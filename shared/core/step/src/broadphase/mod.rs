@@ -36,6 +36,11 @@ pub trait Broadphase: Send + Sync {
     /// Appends at least every disc that overlaps the one given, each once, in any order.
     fn query(&self, center: Vec2, reach: f64, found: &mut Vec<u32>);
 
+    /// The indices of the discs of the last build, neighbours near each other; None if it knows no such order.
+    fn order(&mut self) -> Option<&[u32]> {
+        None
+    }
+
     /// Rectangles (left, bottom, right, top) of the occupied nodes.
     fn nodes(&self) -> Vec<[f64; 4]>;
 }

@@ -3,14 +3,13 @@
 //! out exact; whatever hits twice in one tick does not.
 
 use super::exchange::{Shares, SharesOf, exchange, normal};
-use super::{Contacts, Substep, sorted_pairs};
-use crate::broadphase::Pair;
+use super::{Contacts, Pairs, Substep};
 use crate::force::Field;
 use crate::{Balls, Counters, Error, Rules, Vec2};
 
 #[derive(Default)]
 pub(super) struct Backtrack {
-    pairs: Vec<Pair>,
+    pairs: Pairs,
     /// Mean accelerations of the move, which a wall's contact time depends on; empty without forces.
     accelerations: Vec<Vec2>,
 }
@@ -27,16 +26,15 @@ impl Contacts for Backtrack {
         for (acceleration, &velocity) in self.accelerations.iter_mut().zip(&balls.velocity) {
             *acceleration = (velocity - *acceleration) * (1.0 / dt);
         }
-        sorted_pairs(balls, substep.broadphase, &mut self.pairs);
+        self.pairs.find(balls, substep.broadphase);
         let shares = SharesOf::new(balls, rules.restitution());
-        for &(first, second) in &self.pairs {
-            let (first, second) = (first as usize, second as usize);
-            if let Some(shares) = shares.pair(balls, first, second)
-                && collide(balls, first, second, shares, dt)
-            {
-                substep.counters.collisions += 1;
+        let mut collisions = 0;
+        self.pairs.treat(balls, |balls, first, second| {
+            if let Some(shares) = shares.pair(balls, first, second) {
+                collisions += u64::from(collide(balls, first, second, shares, dt));
             }
-        }
+        });
+        substep.counters.collisions += collisions;
         walls(rules, balls, &self.accelerations, dt, substep.counters);
         Ok(())
     }

@@ -7,12 +7,15 @@ mod backtrack;
 mod event;
 mod exchange;
 mod overlap;
+mod pairs;
 mod root;
 
-use crate::broadphase::{Broadphase, Discs, Pair, Reach};
+use crate::broadphase::Broadphase;
 use crate::force::Field;
 use crate::integrator::Integrator;
 use crate::{Balls, Counters, Error, Rules};
+
+pub(crate) use pairs::Pairs;
 
 /// Most collisions in one tick; see [`Error::EventLimit`].
 pub const EVENT_LIMIT: u64 = 4_000_000;
@@ -46,6 +49,11 @@ pub trait Contacts: Send + Sync {
     /// # Errors
     /// [`Error::EventLimit`]; the state is then to be thrown away.
     fn advance(&mut self, substep: &mut Substep<'_>) -> Result<(), Error>;
+
+    /// Whether it does without memory order being id order.
+    fn takes_any_order(&self) -> bool {
+        true
+    }
 }
 
 /// A registered treatment.
@@ -81,19 +89,3 @@ pub static TABLE: [Kind; 3] = [
         reason: "its path between collisions is the parabola, or the kick - drift - kick, of velocity Verlet",
     },
 ];
-
-/// All overlapping pairs as (lower index, higher index), in that order.
-pub(crate) fn sorted_pairs(balls: &Balls, broadphase: &mut dyn Broadphase, pairs: &mut Vec<Pair>) {
-    let reach = match balls.uniform() {
-        Some(shape) => Reach::Same(shape.radius),
-        None => Reach::Each(&balls.radius),
-    };
-    let discs = Discs {
-        center: &balls.position,
-        reach,
-    };
-    pairs.clear();
-    broadphase.build(&discs);
-    broadphase.pairs(&discs, pairs);
-    pairs.sort_unstable();
-}

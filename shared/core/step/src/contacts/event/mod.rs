@@ -43,6 +43,10 @@ impl Contacts for EventDriven {
         self.end(substep);
         Ok(())
     }
+
+    fn takes_any_order(&self) -> bool {
+        false
+    }
 }
 
 impl EventDriven {
