@@ -13,6 +13,7 @@ KugliceError
 │   └── EventLimitError       more collisions in one tick than the limit
 ├── ReplayError               a replay file that is damaged, or not one
 ├── ProtocolError             a message that is damaged, too large, or of another version
+├── NetworkError              a link that cannot be opened or conditioned as asked
 ├── JoinError                 a server that cannot be joined
 ├── PictureError (ValueError) a picture or video that cannot be drawn or written as asked
 └── MissingExtraError (ImportError)  a package that only an extra installs
@@ -32,6 +33,7 @@ __all__ = [
     "LimitError",
     "MissingExtraError",
     "ModelError",
+    "NetworkError",
     "PictureError",
     "PlanError",
     "ProtocolError",
@@ -96,6 +98,10 @@ class ReplayError(KugliceError):
 
 class ProtocolError(KugliceError):
     """A message that is damaged, too large, or of another version."""
+
+
+class NetworkError(KugliceError):
+    """A link that cannot be opened, or not be conditioned as asked."""
 
 
 class JoinError(KugliceError):

@@ -1,10 +1,10 @@
-"""Commands of the lab: `kuglice chart` and `kuglice bench`."""
+"""Commands of the lab: `kuglice chart`, `kuglice bench` and `kuglice proxy`."""
 
 from __future__ import annotations
 
 import typer
 
-from kuglice.lab.cli import bench, chart
+from kuglice.lab.cli import bench, chart, proxy
 
 __all__ = ["register"]
 
@@ -13,3 +13,4 @@ def register(app: typer.Typer) -> None:
     """Add them."""
     bench.register(app)
     chart.register(app)
+    proxy.register(app)
