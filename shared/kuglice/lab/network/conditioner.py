@@ -41,6 +41,7 @@ class Conditioner:
             [sys.executable, "-m", "kuglice.lab.network", *arguments],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
+            bufsize=0,
             # Ctrl-C is for us to hear: the link lasts until its users have left.
             start_new_session=True,
         )
@@ -90,7 +91,6 @@ class Conditioner:
         assert self._process.stdin is not None
         try:
             self._process.stdin.write(json.dumps({name: value}).encode() + b"\n")
-            self._process.stdin.flush()
         except OSError as error:
             raise NetworkError(f"the {self.kind} has ended: {error}") from error
         answer = self._answer()
