@@ -9,6 +9,7 @@ from importlib.util import find_spec
 from typing import Annotated
 
 import typer
+from typer.core import TyperGroup
 
 from kuglice.version import VERSION
 
@@ -31,6 +32,7 @@ gas:n=2000,packing=0.5. `kuglice scenes` lists them.
 def build() -> typer.Typer:
     """All commands that are installed."""
     app = typer.Typer(
+        cls=_Ordered,
         help=HELP,
         no_args_is_help=True,
         context_settings={"help_option_names": ["-h", "--help"]},
@@ -43,11 +45,16 @@ def build() -> typer.Typer:
             import_module(f"kuglice.cli.{name}").register(app)
     for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name):
         _register(app, entry)
-    app.registered_commands.sort(key=lambda command: _place(command.name))
     return app
 
 
-def _place(name: str | None) -> int:
+class _Ordered(TyperGroup):
+    def list_commands(self, ctx: object) -> list[str]:
+        """In our order, whoever registered them."""
+        return sorted(self.commands, key=_place)
+
+
+def _place(name: str) -> int:
     return ORDER.index(name) if name in ORDER else len(ORDER)
 
 

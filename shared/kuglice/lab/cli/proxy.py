@@ -37,9 +37,9 @@ def proxy(
     bandwidth: Annotated[float, typer.Option(help="Bytes per second each way, 0 for no limit.")] = 0.0,
     seed: Annotated[int, typer.Option(help="Of all that is random.")] = 1,
 ) -> None:
-    """Put a bad network between a server and its clients, for TCP and UDP.
+    """Put a bad network between a server and its clients.
 
-    Ends on SIGINT or SIGTERM.
+    It relays TCP connections and UDP datagrams of one port. Ends on SIGINT or SIGTERM.
 
     Example: kuglice proxy --round-trip 300, and then kuglice client --connect tcp/127.0.0.1:7448
     """

@@ -58,7 +58,7 @@ class Conditioner:
         self._order("change", conditions.to_message())
 
     def cut(self, seconds: float) -> None:
-        """Nothing gets through for that long, and what was sent meanwhile is lost; returns at once."""
+        """Nothing gets through for that long, and what is sent is lost; returns at once. 0 ends a cut."""
         self._order("cut", seconds)
 
     def stall(self, seconds: float) -> None:

@@ -58,16 +58,16 @@ class Proxy:
         self.reset()
 
     async def _accept(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        if self._up.is_cut:
-            writer.transport.abort()
-            return
+        self._writers.add(writer)
+        far_writer = writer
         try:
+            if self._up.is_cut:
+                return
             far_reader, far_writer = await asyncio.open_connection(*self._target)
-        except OSError:
-            writer.transport.abort()
-            return
-        self._writers |= {writer, far_writer}
-        try:
+            self._writers.add(far_writer)
+            # The line may have been cut while we connected.
+            if self._up.is_cut:
+                return
             await asyncio.gather(
                 self._pump(reader, far_writer, self._up), self._pump(far_reader, writer, self._down)
             )
