@@ -15,6 +15,7 @@ type Ids = NDArray[np.uint64]
 type Pixels = NDArray[np.uint8]
 
 STEP_VERSION: int
+MOST_THREADS: int
 """Changes when, and only when, some state would step to other bits than before."""
 INTEGRATORS: tuple[str, ...]
 CONTACTS: tuple[str, ...]
@@ -67,6 +68,11 @@ class World:
     ) -> Self: ...
     @staticmethod
     def restore(rules: Rules, model: Model, data: bytes) -> World: ...
+    def employ(self, threads: int) -> None:
+        """Share the work of a step among so many threads from now on."""
+
+    @property
+    def threads(self) -> int: ...
     def step(self, inputs: bytes, dt: float | None = None) -> None:
         """One tick. `inputs` is any number of input records in any order; `dt` overrides 1 / tick_rate."""
 

@@ -26,13 +26,16 @@ MOST_TICKS = 2**63
 class World:
     """State and step of a scene. Without a model, `plan(scene)` chooses one.
 
+    `threads` share the work of a step (1 to 256): they show in nothing but its time, and clones share them.
+    Raises LimitError for another number.
+
     Arrays that properties return are copies in id order, safe to keep; `view()` lends the memory itself.
     Stepping releases the GIL; one world is not to be stepped from two threads at once.
     """
 
     __slots__ = ("_core", "_model", "_scene")
 
-    def __init__(self, scene: Scene, model: Model | None = None) -> None:
+    def __init__(self, scene: Scene, model: Model | None = None, *, threads: int = 1) -> None:
         self._scene = scene
         self._model = plan(scene) if model is None else model
         balls = scene.balls
@@ -44,15 +47,17 @@ class World:
             radius=balls.radius,
             mass=balls.mass,
         )
+        self._employ(threads)
 
     @classmethod
-    def restore(cls, scene: Scene, data: bytes, model: Model | None = None) -> World:
+    def restore(cls, scene: Scene, data: bytes, model: Model | None = None, *, threads: int = 1) -> World:
         """The world of a snapshot; it continues bit for bit.
 
         Raises SnapshotError, also when every ball lies beyond the scene's walls: then it is another scene's.
         """
         chosen = plan(scene) if model is None else model
         made = cls._wrap(scene, chosen, _core.World.restore(scene.rules(), chosen.core(), data))
+        made._employ(threads)
         if scene.walls and made.count:
             made._refuse_if_elsewhere()
         return made
@@ -122,6 +127,18 @@ class World:
     def model(self) -> Model:
         """What computes it."""
         return self._model
+
+    def _employ(self, threads: int) -> None:
+        if not isinstance(threads, int | np.integer) or not 1 <= threads <= _core.MOST_THREADS:
+            raise LimitError(
+                f"threads = {threads!r}: must be a whole number, at least 1 and at most {_core.MOST_THREADS}"
+            )
+        self._core.employ(int(threads))
+
+    @property
+    def threads(self) -> int:
+        """How many share the work of a step."""
+        return self._core.threads
 
     @property
     def tick(self) -> int:

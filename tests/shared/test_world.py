@@ -202,3 +202,27 @@ def test_the_package_lists_what_is_public_and_nothing_else():
         assert getattr(kg, name) is not None
     for name in ("loop", "picture", "replay", "protocol", "World"):
         assert name in kg.__all__
+
+
+@pytest.mark.parametrize("contacts", ["overlap", "backtrack", "event"])
+def test_threads_show_in_nothing(contacts):
+    scene = kg.scenes.gas(n=3000)
+    model = kg.Model(integrator="verlet", contacts=contacts)
+    judge = kg.World(scene, model)
+    judge.run(20)
+    for threads in (2, 3, 8):
+        world = kg.World(scene, model, threads=threads)
+        world.run(10)
+        again = kg.World.restore(scene, world.snapshot(), model, threads=threads + 1)
+        again.run(5)
+        copy = again.clone()
+        copy.run(5)
+        assert (world.threads, again.threads, copy.threads) == (threads, threads + 1, threads + 1)
+        assert copy.state_hash == judge.state_hash
+        assert copy.snapshot() == judge.snapshot()
+
+
+@pytest.mark.parametrize("threads", [0, -1, 257, 1.5, "2"])
+def test_threads_out_of_bounds_are_refused(threads):
+    with pytest.raises(kg.errors.LimitError, match="at least 1 and at most 256"):
+        kg.World(kg.scenes.gas(n=10), threads=threads)

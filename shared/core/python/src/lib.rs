@@ -8,7 +8,8 @@ mod rules;
 mod world;
 
 use kuglice_step::{
-    INPUT_BYTES, InputKind, NO_BALL, STEP_VERSION, broadphase, contacts, force, integrator, random,
+    INPUT_BYTES, InputKind, MOST_THREADS, NO_BALL, STEP_VERSION, broadphase, contacts, force, integrator,
+    random,
 };
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -55,6 +56,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
         PyTuple::new(py, InputKind::ALL.map(InputKind::name))?,
     )?;
     module.add("INPUT_BYTES", INPUT_BYTES)?;
+    module.add("MOST_THREADS", MOST_THREADS)?;
     module.add("NO_BALL", NO_BALL)?;
     module.add_class::<rules::Rules>()?;
     module.add_class::<model::Model>()?;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use kuglice_step::{Balls, NewBall, Recording, Vec2, read_inputs};
+use kuglice_step::{Balls, NewBall, Recording, Team, Vec2, read_inputs};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -160,6 +160,18 @@ impl World {
         self.check_not_lent(py)?;
         self.inner.copy_from(&other.inner);
         Ok(())
+    }
+
+    /// Shares the work of a step among so many threads from now on.
+    fn employ(&mut self, py: Python<'_>, threads: usize) -> PyResult<()> {
+        let team = Team::new(threads).map_err(|error| raise(py, &error))?;
+        self.inner.employ(team);
+        Ok(())
+    }
+
+    #[getter]
+    fn threads(&self) -> usize {
+        self.inner.team().size()
     }
 
     #[getter]

@@ -35,6 +35,7 @@ mod recording;
 mod rules;
 mod snapshot;
 mod state;
+mod team;
 mod vec2;
 mod walls;
 mod world;
@@ -46,6 +47,7 @@ pub use model::Model;
 pub use recording::Recording;
 pub use rules::Rules;
 pub use state::{Counters, Held, HeldKind, Player, State};
+pub use team::{MOST_THREADS, Team};
 pub use vec2::Vec2;
 pub use world::World;
 

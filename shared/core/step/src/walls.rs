@@ -1,6 +1,9 @@
 //! The walls of the box.
 
-use crate::{Balls, Counters, Rules, Vec2};
+use crate::{Balls, Counters, Rules, Team, Vec2};
+
+/// Balls that one piece of work looks at, at least.
+const GRAIN: usize = 1024;
 
 /// A wall as a half-plane.
 #[derive(Clone, Copy, Debug)]
@@ -75,19 +78,39 @@ impl Walls {
 
 /// Turns the velocity of every ball that reaches beyond a wall and moves on into it, in the order left, right,
 /// bottom, top. Positions are left alone.
-pub(crate) fn reflect(rules: &Rules, balls: &mut Balls, counters: &mut Counters) {
+pub(crate) fn reflect(rules: &Rules, balls: &mut Balls, counters: &mut Counters, team: &Team) {
     if !rules.walls() {
         return;
     }
+    let hits = match balls.uniform() {
+        Some(shape) => team.share(
+            (&balls.position[..], &mut balls.velocity[..]),
+            GRAIN,
+            &|(positions, velocities)| reflect_all(rules, positions, velocities, |_| shape.radius),
+            &|left, right| left + right,
+        ),
+        None => team.share(
+            (&balls.position[..], &mut balls.velocity[..], &balls.radius[..]),
+            GRAIN,
+            &|(positions, velocities, radii)| reflect_all(rules, positions, velocities, |index| radii[index]),
+            &|left, right| left + right,
+        ),
+    };
+    counters.wall_hits += hits;
+}
+
+#[inline]
+fn reflect_all(
+    rules: &Rules,
+    positions: &[Vec2],
+    velocities: &mut [Vec2],
+    radius: impl Fn(usize) -> f64,
+) -> u64 {
     let [left, bottom, right, top] = rules.bounds();
     let restitution = rules.restitution();
-    let uniform = balls.uniform();
     let mut hits = 0;
-    for (index, (position, velocity)) in balls.position.iter().zip(&mut balls.velocity).enumerate() {
-        let radius = match uniform {
-            Some(shape) => shape.radius,
-            None => balls.radius[index],
-        };
+    for (index, (position, velocity)) in positions.iter().zip(velocities).enumerate() {
+        let radius = radius(index);
         let inside = (position.x - radius >= left)
             & (position.x + radius <= right)
             & (position.y - radius >= bottom)
@@ -112,5 +135,5 @@ pub(crate) fn reflect(rules: &Rules, balls: &mut Balls, counters: &mut Counters)
             hits += 1;
         }
     }
-    counters.wall_hits += hits;
+    hits
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::broadphase::{Broadphase, Pair};
 use crate::contacts::{Contacts, Pairs, Substep};
 use crate::force::{Field, HeldNow};
-use crate::{Error, Input, Model, NewBall, Rules, State, Vec2, apply, energy, hash, snapshot};
+use crate::{Error, Input, Model, NewBall, Rules, State, Team, Vec2, apply, energy, hash, snapshot};
 
 /// A simulation that can be stepped, copied, saved and restored.
 pub struct World {
@@ -19,6 +19,7 @@ pub struct World {
     inputs: Vec<Input>,
     /// Ticks until the balls are put in spatial order again.
     until_arranged: u32,
+    team: Team,
 }
 
 /// Balls that are fewer than this stay in id order: the nearest cache holds them all.
@@ -30,6 +31,7 @@ impl Clone for World {
     fn clone(&self) -> World {
         World {
             until_arranged: self.until_arranged,
+            team: self.team.clone(),
             ..World::with_state(Arc::clone(&self.rules), self.model.clone(), self.state.clone())
         }
     }
@@ -78,6 +80,7 @@ impl World {
             last: State::default(),
             inputs: Vec::new(),
             until_arranged: 0,
+            team: Team::default(),
         }
     }
 
@@ -108,7 +111,8 @@ impl World {
         } else {
             self.last.clone_from(&self.state);
         }
-        let done = self.try_step(inputs, dt);
+        let team = self.team.clone();
+        let done = team.enter(|| self.try_step(inputs, dt));
         if done.is_err() {
             self.go_back(!inputs.is_empty());
         } else {
@@ -162,6 +166,7 @@ impl World {
                 field: &field,
                 integrator: self.model.integrator(),
                 broadphase: &mut *self.broadphase,
+                team: &self.team,
                 tick: state.tick,
                 time: start + f64::from(substep) * part,
                 dt: part,
@@ -179,6 +184,17 @@ impl World {
             state.variable_time += dt;
         }
         Ok(())
+    }
+
+    /// Lets `team` do the work from now on: how many threads there are shows in nothing but time.
+    pub fn employ(&mut self, team: Team) {
+        self.team = team;
+    }
+
+    /// Who does the work.
+    #[must_use]
+    pub fn team(&self) -> &Team {
+        &self.team
     }
 
     /// The state.
@@ -237,8 +253,8 @@ impl World {
 
     /// All pairs that overlap now, as indices, the lower id first, in order of the ids.
     pub fn overlapping(&mut self) -> Vec<Pair> {
-        let mut pairs = Pairs::default();
-        pairs.find(&self.state.balls, &mut *self.broadphase);
+        let mut pairs = Pairs::<()>::default();
+        pairs.find_overlapping(&self.state.balls, &mut *self.broadphase, &self.team);
         pairs.sorted(&self.state.balls)
     }
 
@@ -253,7 +269,7 @@ impl World {
         let model = Model::new("verlet", "overlap", name, 1, self.model.smallest_node());
         let Ok(model) = model else { return Vec::new() };
         let mut tree = model.make_broadphase(&self.rules);
-        Pairs::default().find(&self.state.balls, &mut *tree);
+        Pairs::<()>::default().find(&self.state.balls, &mut *tree, &self.team);
         tree.nodes()
     }
 }

@@ -1,7 +1,7 @@
 //! One suite for all broadphases; brute force is the judge.
 
-use kuglice_step::Vec2;
-use kuglice_step::broadphase::{Broadphase, Discs, Pair, Reach, Settings, TABLE};
+use kuglice_step::broadphase::{Broadphase, Discs, Found, Pair, Reach, Settings, TABLE};
+use kuglice_step::{Team, Vec2};
 use proptest::prelude::*;
 
 #[derive(Clone, Debug)]
@@ -20,15 +20,19 @@ fn settings() -> Settings {
 }
 
 fn pairs_of(broadphase: &mut dyn Broadphase, scene: &Scene) -> Vec<Pair> {
-    let discs = Discs {
-        center: &scene.center,
-        reach: Reach::Each(&scene.reach),
-    };
-    let mut found = Vec::new();
-    broadphase.build(&discs);
-    broadphase.pairs(&discs, &mut found);
-    found.sort_unstable();
-    found
+    let reach = Reach::Each(&scene.reach);
+    pairs_among(broadphase, &scene.center, reach, &Team::default())
+}
+
+fn pairs_among(broadphase: &mut dyn Broadphase, center: &[Vec2], reach: Reach<'_>, team: &Team) -> Vec<Pair> {
+    let discs = Discs { center, reach };
+    let mut found = Found::default();
+    broadphase.build(&discs, team);
+    broadphase.pairs(&discs, team, &mut found);
+    found.keep_overlapping(&discs, team);
+    let mut pairs: Vec<_> = found.iter().collect();
+    pairs.sort_unstable();
+    pairs
 }
 
 fn judge(scene: &Scene) -> Vec<Pair> {
@@ -101,14 +105,20 @@ proptest! {
     #[test]
     fn equal_discs_need_no_array(scene in scene()) {
         let same = Scene { reach: vec![0.5; scene.center.len()], ..scene };
-        let discs = Discs { center: &same.center, reach: Reach::Same(0.5) };
         for kind in &TABLE {
             let mut broadphase = (kind.make)(&settings());
-            let mut found = Vec::new();
-            broadphase.build(&discs);
-            broadphase.pairs(&discs, &mut found);
-            found.sort_unstable();
+            let found = pairs_among(&mut *broadphase, &same.center, Reach::Same(0.5), &Team::default());
             prop_assert_eq!(found, judge(&same), "{}", kind.name);
+        }
+    }
+
+    #[test]
+    fn any_number_of_threads_finds_them(scene in scene(), threads in 2usize..9) {
+        let team = Team::new(threads).unwrap();
+        for kind in &TABLE {
+            let mut broadphase = (kind.make)(&settings());
+            let found = pairs_among(&mut *broadphase, &scene.center, Reach::Each(&scene.reach), &team);
+            prop_assert_eq!(found, judge(&scene), "{}", kind.name);
         }
     }
 

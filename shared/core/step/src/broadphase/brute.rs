@@ -1,7 +1,7 @@
 //! Every pair. Nothing to go wrong: the judge of the other broadphases, and the fastest for a handful of balls.
 
-use super::{Broadphase, Discs, Pair};
-use crate::Vec2;
+use super::{Broadphase, Discs, Found};
+use crate::{Team, Vec2};
 
 #[derive(Default)]
 pub(super) struct Brute {
@@ -9,7 +9,7 @@ pub(super) struct Brute {
 }
 
 impl Broadphase for Brute {
-    fn build(&mut self, discs: &Discs<'_>) {
+    fn build(&mut self, discs: &Discs<'_>, _team: &Team) {
         self.discs.clear();
         self.discs.extend(
             discs
@@ -20,7 +20,8 @@ impl Broadphase for Brute {
         );
     }
 
-    fn pairs(&mut self, discs: &Discs<'_>, found: &mut Vec<Pair>) {
+    fn pairs(&mut self, discs: &Discs<'_>, _team: &Team, found: &mut Found) {
+        let found = found.single();
         for second in 1..discs.len() {
             for first in 0..second {
                 if discs.overlap(first, second) {

@@ -6,9 +6,12 @@
 
 use std::ops::Range;
 
-use super::lanes::LANES;
+use super::lanes::{LANES, Scale};
 use super::{Discs, Reach, slack};
 use crate::Vec2;
+
+/// Added and taken away again, it leaves the nearest whole number: half way between 2^52 and 2^53, numbers are whole.
+const WHOLE: f64 = 6_755_399_441_055_744.0;
 
 /// Cells on a side at the finest level: few enough that rounding in a cell number stays far below the margin.
 const MOST_CELLS: f64 = 32768.0;
@@ -25,27 +28,31 @@ pub(super) struct Level {
     size: f64,
     /// Cells per metre.
     inverse: f64,
-    columns: u32,
+    /// Bounds of a place in the grid; see [`Level::across`].
+    most: Vec2,
     rows: u32,
     /// Numbers from a cell to the one above it.
     pub(super) stride: usize,
     /// The number of this level's first cell.
     pub(super) first: usize,
-    /// Discs in it.
+    /// Discs in it, or more.
     pub(super) population: u32,
 }
 
 impl Level {
     fn new(origin: Vec2, extent: Vec2, size: f64, first: usize) -> Level {
-        let columns = (extent.x / size) as u32 + 1;
-        let rows = (extent.y / size) as u32 + 1;
-        let stride = columns as usize + 2;
+        let inverse = 1.0 / size;
+        // Where the discs are spread over more than f64 can count, one cell holds them all.
+        let most =
+            |length: f64| Some(length * inverse - 0.5).filter(|most| (0.0..=MOST_CELLS).contains(most));
+        let most = Vec2::new(most(extent.x).unwrap_or(-0.5), most(extent.y).unwrap_or(-0.5));
+        let stride = whole(most.x) as usize + 3;
         Level {
             origin,
             size,
-            inverse: 1.0 / size,
-            columns,
-            rows,
+            inverse,
+            most,
+            rows: whole(most.y) + 1,
             stride,
             first,
             population: 0,
@@ -57,26 +64,35 @@ impl Level {
         self.first + (self.rows as usize + 1) * self.stride
     }
 
-    #[inline]
-    fn column(&self, x: f64) -> u32 {
-        // The cast sends what is below 0 to 0; the minimum keeps what is beyond the last cell in it.
-        (((x - self.origin.x) * self.inverse) as u32).min(self.columns - 1)
+    /// How many cells a place is from the middle of the first, across and up. What is outside the bounds counts to the
+    /// nearest cell: that takes no two places further apart.
+    #[inline(always)]
+    pub(super) fn across(&self, point: Vec2) -> Vec2 {
+        Vec2::new(
+            bounded((point.x - self.origin.x) * self.inverse - 0.5, self.most.x),
+            bounded((point.y - self.origin.y) * self.inverse - 0.5, self.most.y),
+        )
     }
 
-    #[inline]
-    fn row(&self, y: f64) -> u32 {
-        (((y - self.origin.y) * self.inverse) as u32).min(self.rows - 1)
-    }
-
-    #[inline]
-    fn cell(&self, column: u32, row: u32) -> usize {
-        self.first + row as usize * self.stride + column as usize + 1
+    /// The cell in whose middle, or nearest to it, such a place is. In f64, where it is exact, so that it vectorises.
+    #[inline(always)]
+    pub(super) fn cell(&self, across: Vec2) -> u32 {
+        let (column, row) = ((across.x + WHOLE) - WHOLE, (across.y + WHOLE) - WHOLE);
+        whole(row * self.stride as f64 + column + (self.first + 1) as f64)
     }
 
     /// The cell that holds a point.
     #[inline]
     pub(super) fn cell_at(&self, point: Vec2) -> u32 {
-        self.cell(self.column(point.x), self.row(point.y)) as u32
+        self.cell(self.across(point))
+    }
+
+    /// How this level's coordinates become f32.
+    pub(super) fn scale(&self) -> Scale {
+        Scale {
+            inverse: self.inverse,
+            most: self.most.x.max(self.most.y).max(0.5),
+        }
     }
 
     /// Whether discs of that reach fit the cells.
@@ -88,10 +104,13 @@ impl Level {
     /// The cells whose discs could meet a disc, row by row.
     pub(super) fn runs(&self, center: Vec2, reach: f64) -> impl Iterator<Item = Range<usize>> + use<> {
         let far = reach + slack(center, reach) + 0.5 * self.size;
-        let (left, right) = (self.column(center.x - far), self.column(center.x + far));
-        let (bottom, top) = (self.row(center.y - far), self.row(center.y + far));
+        let low = self.across(Vec2::new(center.x - far, center.y - far));
+        let high = self.across(Vec2::new(center.x + far, center.y + far));
         let level = *self;
-        (bottom..=top).map(move |row| level.cell(left, row)..level.cell(right, row) + 1)
+        (whole(low.y)..=whole(high.y)).map(move |row| {
+            let cell = |column: f64| level.cell(Vec2::new(column, f64::from(row))) as usize;
+            cell(low.x)..cell(high.x) + 1
+        })
     }
 
     /// The rectangle (left, bottom, right, top) of a cell.
@@ -106,6 +125,19 @@ impl Level {
     }
 }
 
+/// The nearest whole number, of a number from -0.5 to 2^32 - 1.
+#[inline(always)]
+fn whole(number: f64) -> u32 {
+    (number + WHOLE).to_bits() as u32
+}
+
+/// A number from -0.5 to `most`. Written so that it becomes two instructions, and gives one of the bounds for NaN.
+#[inline(always)]
+fn bounded(number: f64, most: f64) -> f64 {
+    let number = if number < most { number } else { most };
+    if number > -0.5 { number } else { -0.5 }
+}
+
 /// All levels, the finest first.
 #[derive(Debug, Default)]
 pub(super) struct Levels {
@@ -117,8 +149,16 @@ impl Levels {
         &self.all
     }
 
-    pub(super) fn all_mut(&mut self) -> &mut [Level] {
-        &mut self.all
+    /// The finest one.
+    pub(super) fn finest(&self) -> &Level {
+        &self.all[0]
+    }
+
+    /// Counts the discs of each level, given where those of each cell begin.
+    pub(super) fn populate(&mut self, offsets: &[u32]) {
+        for level in &mut self.all {
+            level.population = offsets[level.end()] - offsets[level.first];
+        }
     }
 
     /// How many cells there are, borders included.
@@ -134,13 +174,9 @@ impl Levels {
 
     /// The same for a disc of the layout, which always has one.
     #[inline]
-    pub(super) fn of_mut(&mut self, reach: f64) -> &mut Level {
-        let at = self
-            .all
-            .iter()
-            .position(|level| level.takes(reach))
-            .unwrap_or(self.all.len() - 1);
-        &mut self.all[at]
+    pub(super) fn of(&self, reach: f64) -> &Level {
+        let found = self.all.iter().find(|level| level.takes(reach));
+        found.unwrap_or(&self.all[self.all.len() - 1])
     }
 
     /// Lays the levels out for these discs: over the root, or over the discs alone if they fill little of it.

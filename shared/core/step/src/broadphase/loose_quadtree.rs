@@ -6,23 +6,31 @@
 //! cells double those of the level below. A table of offsets per cell, filled by a counting sort, stands for the tree.
 //! Centres outside the bounds count to the nearest cell, which keeps neighbours neighbours.
 
-use super::lanes::LANES;
+use std::ops::Range;
+
+use super::cell_order::{BLOCK, Blocks, CellOrder, Input, Located, Span};
+use super::lanes::{LANES, Scale, all_beyond};
 use super::levels::{Level, Levels};
 use super::relocated::Relocated;
-use super::sorted::{Probe, Sorted, Tag, lanes_of};
-use super::{Broadphase, Discs, Pair, Reach, Settings};
-use crate::Vec2;
+use super::sorted::{Probe, Sorted};
+use super::{Broadphase, Discs, Found, Pair, Reach, Settings};
+use crate::{Team, Vec2};
 
 pub(super) struct LooseQuadtree {
     root: [f64; 4],
     levels: Levels,
-    /// For each cell, where its discs begin in the sorted arrays; the numbers behind the last cell end the table.
+    scale: Scale,
+    located: Vec<Located>,
+    spans: Vec<Span>,
+    reach: Vec<f32>,
+    cell_order: CellOrder,
+    /// For each cell, where its discs begin in the sorted arrays; the number behind the last cell ends the table.
     offsets: Vec<u32>,
-    cells: Vec<u32>,
     sorted: Sorted,
     count: usize,
     same: Option<f64>,
     relocated: Relocated,
+    order: Vec<u32>,
 }
 
 impl LooseQuadtree {
@@ -30,110 +38,158 @@ impl LooseQuadtree {
         LooseQuadtree {
             root: settings.root,
             levels: Levels::default(),
+            scale: Scale::default(),
+            located: Vec::new(),
+            spans: Vec::new(),
+            reach: Vec::new(),
+            cell_order: CellOrder::default(),
             offsets: Vec::new(),
-            cells: Vec::new(),
             sorted: Sorted::default(),
             count: 0,
             same: None,
             relocated: Relocated::default(),
+            order: Vec::new(),
         }
     }
 
-    /// The cell of each disc.
-    fn assign(&mut self, discs: &Discs<'_>) {
-        self.cells.clear();
-        if let ([level], Reach::Same(_)) = (self.levels.all_mut(), discs.reach) {
-            level.population = self.count as u32;
-            let level = &*level;
-            self.cells
-                .extend(discs.center.iter().map(|&center| level.cell_at(center)));
-            return;
-        }
-        for (index, &center) in discs.center.iter().enumerate() {
-            let level = self.levels.of_mut(discs.reach.of(index));
-            level.population += 1;
-            self.cells.push(level.cell_at(center));
-        }
-    }
-
-    /// A counting sort by cell. Discs of one cell stay in index order.
-    fn sort(&mut self, discs: &Discs<'_>) {
-        self.offsets.clear();
-        self.offsets.resize(self.levels.cells() + 1, 0);
-        for &cell in &self.cells {
-            self.offsets[cell as usize] += 1;
-        }
-        let mut sum = 0;
-        for offset in &mut self.offsets {
-            sum += *offset;
-            *offset = sum;
-        }
+    /// Finds the cell of each disc, and its coordinates in cells of the finest level.
+    fn locate(&mut self, discs: &Discs<'_>, team: &Team) {
+        self.located.resize(discs.len(), Located::default());
+        self.spans.resize(discs.len().div_ceil(BLOCK), Span::default());
         let each = matches!(discs.reach, Reach::Each(_));
-        self.sorted.resize(self.count, each);
-        // From the last to the first, so that each offset ends up at the first disc of its cell.
-        for (index, (&cell, &center)) in self.cells.iter().zip(discs.center).enumerate().rev() {
-            let offset = &mut self.offsets[cell as usize];
-            *offset -= 1;
-            let slot = *offset as usize;
-            self.sorted.x[slot] = center.x;
-            self.sorted.y[slot] = center.y;
-            self.sorted.tag[slot] = Tag {
-                index: index as u32,
-                cell,
-            };
-            if each {
-                self.sorted.reach[slot] = discs.reach.of(index);
+        self.reach.resize(if each { discs.len() } else { 0 }, 0.0);
+        let (levels, scale) = (&self.levels, self.scale);
+        let blocks = Blocks {
+            located: &mut self.located,
+            spans: &mut self.spans,
+        };
+        match discs.reach {
+            Reach::Same(_) => {
+                let level = levels.finest();
+                team.each((blocks, discs.center), BLOCK, &|(blocks, centers)| {
+                    for ((block, span), centers) in blocks.each().zip(centers.chunks(BLOCK)) {
+                        for (located, &center) in block.iter_mut().zip(centers) {
+                            *located = Located::at(level.across(center), level.cell_at(center));
+                        }
+                        *span = Span::of(block);
+                    }
+                });
+            }
+            Reach::Each(all) => {
+                let whole = (blocks, discs.center, all, &mut self.reach[..]);
+                team.each(whole, BLOCK, &|(blocks, centers, all, narrow)| {
+                    for (narrow, &reach) in narrow.iter_mut().zip(all) {
+                        *narrow = scale.probed(reach);
+                    }
+                    let finest = levels.finest();
+                    let discs = centers.chunks(BLOCK).zip(all.chunks(BLOCK));
+                    for ((block, span), (centers, all)) in blocks.each().zip(discs) {
+                        for ((located, &center), &reach) in block.iter_mut().zip(centers).zip(all) {
+                            *located = Located::at(finest.across(center), levels.of(reach).cell_at(center));
+                        }
+                        *span = Span::of(block);
+                    }
+                });
             }
         }
+    }
+
+    /// The sorted discs of a level.
+    fn slots(&self, level: &Level) -> (usize, usize) {
+        (
+            self.offsets[level.first] as usize,
+            self.offsets[level.end()] as usize,
+        )
     }
 
     /// Pairs inside one level. A disc is tested against what follows it in its cell and the cell to the right, and
     /// against the three cells above: two runs of the sorted arrays.
-    fn pairs_in_level<const EACH: bool>(&self, level: &Level, reach: f64, found: &mut Vec<Pair>) {
-        let (first, end) = (
-            self.offsets[level.first] as usize,
-            self.offsets[level.end()] as usize,
-        );
-        for slot in first..end {
+    #[inline(never)] // Alone, its loop keeps what it needs in registers.
+    fn pairs_in_level<const EACH: bool>(&self, level: &Level, slots: Range<usize>, found: &mut Vec<Pair>) {
+        let sum = self
+            .same
+            .map_or(0.0, |reach| self.scale.probing(reach) + self.scale.probed(reach));
+        let margin = self.scale.probing(0.0);
+        let (offsets, stride) = (&self.offsets[..], level.stride);
+        for slot in slots {
             let cell = self.sorted.tag[slot].cell as usize;
-            let beside = slot + 1..self.offsets[cell + 2] as usize;
-            let above = self.offsets[cell + level.stride - 1] as usize
-                ..self.offsets[cell + level.stride + 2] as usize;
-            let probe = Probe::<EACH>::new(&self.sorted, slot, reach);
-            let hits = probe.lanes(beside.start) & lanes_of(beside.len());
-            let hits_above = probe.lanes(above.start) & lanes_of(above.len());
-            // One branch for the usual case: at most a few candidates, none of which is hit.
-            if hits | hits_above != 0 {
-                probe.report(hits, beside.start, found);
-                probe.report(hits_above, above.start, found);
-            }
-            if beside.len().max(above.len()) > LANES {
-                probe.rest(beside, found);
-                probe.rest(above, found);
+            let beside = slot + 1..offsets[cell + 2] as usize;
+            let above = offsets[cell + stride - 1] as usize..offsets[cell + stride + 2] as usize;
+            let reach = if EACH {
+                self.sorted.reach[slot] + margin
+            } else {
+                sum
+            };
+            let probe = Probe::<EACH>::of(&self.sorted, slot, reach);
+            // One branch for the usual case: at most a few candidates, none of which is near. The lanes behind a run
+            // belong to cells further off, where next to nothing is near.
+            if !all_beyond(probe.beyond(beside.start), probe.beyond(above.start))
+                || beside.len().max(above.len()) > LANES
+            {
+                report::<EACH>(&self.sorted, slot, reach, [beside, above], found);
             }
         }
     }
 
-    /// Pairs of the discs of one level with those of a wider one.
-    fn pairs_across(&self, level: &Level, wider: &Level, found: &mut Vec<Pair>) {
-        let (first, end) = (
-            self.offsets[level.first] as usize,
-            self.offsets[level.end()] as usize,
-        );
-        for slot in first..end {
-            let center = Vec2::new(self.sorted.x[slot], self.sorted.y[slot]);
-            let probe = Probe::<true>::new(&self.sorted, slot, 0.0);
-            for run in wider.runs(center, self.sorted.reach[slot]) {
+    /// Pairs of discs of one level with those of a wider one.
+    fn pairs_across(&self, wider: &Level, slots: Range<usize>, discs: &Discs<'_>, found: &mut Vec<Pair>) {
+        let margin = self.scale.probing(0.0);
+        for slot in slots {
+            let index = self.sorted.tag[slot].index;
+            let (center, reach) = (discs.center[index as usize], discs.reach.of(index as usize));
+            let probe = Probe::<true>::of(&self.sorted, slot, self.sorted.reach[slot] + margin);
+            for run in wider.runs(center, reach) {
                 let run = self.offsets[run.start] as usize..self.offsets[run.end] as usize;
-                probe.report(probe.lanes(run.start) & lanes_of(run.len()), run.start, found);
-                probe.rest(run, found);
+                probe.each(run, |other| found.push(pair(index, self.sorted.tag[other].index)));
+            }
+        }
+    }
+
+    /// Pairs whose first disc, in cell order, is in these slots.
+    fn search(&self, slots: &Range<usize>, discs: &Discs<'_>, found: &mut Vec<Pair>) {
+        let levels = self.levels.all();
+        for (at, level) in levels.iter().enumerate() {
+            let (first, end) = self.slots(level);
+            let slots = slots.start.max(first)..slots.end.min(end);
+            if slots.is_empty() {
+                continue;
+            }
+            if self.same.is_some() {
+                self.pairs_in_level::<false>(level, slots.clone(), found);
+            } else {
+                self.pairs_in_level::<true>(level, slots.clone(), found);
+            }
+            for wider in levels[at + 1..].iter().filter(|level| level.population > 0) {
+                self.pairs_across(wider, slots.clone(), discs, found);
             }
         }
     }
 }
 
+/// Two discs as a pair.
+#[inline]
+fn pair(first: u32, second: u32) -> Pair {
+    (first.min(second), first.max(second))
+}
+
+/// Adds the pairs of a sorted disc with those of two runs.
+#[inline(never)]
+fn report<const EACH: bool>(
+    sorted: &Sorted,
+    slot: usize,
+    reach: f32,
+    runs: [Range<usize>; 2],
+    found: &mut Vec<Pair>,
+) {
+    let probe = Probe::<EACH>::of(sorted, slot, reach);
+    let index = sorted.tag[slot].index;
+    for run in runs {
+        probe.each(run, |other| found.push(pair(index, sorted.tag[other].index)));
+    }
+}
+
 impl Broadphase for LooseQuadtree {
-    fn build(&mut self, discs: &Discs<'_>) {
+    fn build(&mut self, discs: &Discs<'_>, team: &Team) {
         self.relocated.clear();
         self.count = discs.len();
         self.same = match discs.reach {
@@ -141,25 +197,28 @@ impl Broadphase for LooseQuadtree {
             Reach::Each(_) => None,
         };
         self.levels.lay_out(discs, self.root);
-        self.assign(discs);
-        self.sort(discs);
+        self.scale = self.levels.finest().scale();
+        self.locate(discs, team);
+        let input = Input {
+            located: &self.located,
+            spans: &self.spans,
+            reach: &self.reach,
+        };
+        let cells = self.levels.cells();
+        self.cell_order
+            .sort(input, cells, team, &mut self.offsets, &mut self.sorted);
+        self.levels.populate(&self.offsets);
     }
 
-    fn pairs(&mut self, _discs: &Discs<'_>, found: &mut Vec<Pair>) {
-        let levels = self.levels.all();
-        for (at, level) in levels
-            .iter()
-            .enumerate()
-            .filter(|(_, level)| level.population > 0)
-        {
-            match self.same {
-                Some(reach) => self.pairs_in_level::<false>(level, reach, found),
-                None => self.pairs_in_level::<true>(level, 0.0, found),
+    fn pairs(&mut self, discs: &Discs<'_>, team: &Team, found: &mut Found) {
+        let lists = found.begin(team);
+        let (tree, pieces) = (&*self, lists.len());
+        team.each((lists, 0..pieces), 1, &|(lists, numbers)| {
+            for (list, number) in lists.iter_mut().zip(numbers) {
+                let slots = tree.count * number / pieces..tree.count * (number + 1) / pieces;
+                tree.search(&slots, discs, list);
             }
-            for wider in levels[at + 1..].iter().filter(|level| level.population > 0) {
-                self.pairs_across(level, wider, found);
-            }
-        }
+        });
     }
 
     fn relocate(&mut self, index: usize, center: Vec2, reach: f64) {
@@ -179,24 +238,31 @@ impl Broadphase for LooseQuadtree {
             let sum = reach + far;
             (center - other).square() <= sum * sum
         };
+        let across = self.levels.finest().across(center);
         for level in self.levels.all().iter().filter(|level| level.population > 0) {
             for run in level.runs(center, reach) {
                 let (start, end) = (self.offsets[run.start] as usize, self.offsets[run.end] as usize);
-                for first in (start..end).step_by(LANES) {
-                    let mut hits = lanes_of(end - first)
-                        & match self.same {
-                            Some(same) => {
-                                Probe::<false>::at(&self.sorted, center, 0.5 * (reach + same)).lanes(first)
-                            }
-                            None => Probe::<true>::at(&self.sorted, center, reach).lanes(first),
-                        };
-                    while hits != 0 {
-                        let index = self.sorted.tag[first + hits.trailing_zeros() as usize].index;
-                        hits &= hits - 1;
-                        if !self.relocated.holds(index) {
-                            found.push(index);
-                        }
+                let mut show = |slot: usize| {
+                    let index = self.sorted.tag[slot].index;
+                    if !self.relocated.holds(index) {
+                        found.push(index);
                     }
+                };
+                match self.same {
+                    Some(same) => Probe::<false> {
+                        sorted: &self.sorted,
+                        x: across.x as f32,
+                        y: across.y as f32,
+                        reach: self.scale.probing(reach) + self.scale.probed(same),
+                    }
+                    .each(start..end, &mut show),
+                    None => Probe::<true> {
+                        sorted: &self.sorted,
+                        x: across.x as f32,
+                        y: across.y as f32,
+                        reach: self.scale.probing(reach),
+                    }
+                    .each(start..end, &mut show),
                 }
                 self.relocated.in_cells(run, |index, other, far| {
                     if touches(other, far) {
@@ -213,10 +279,10 @@ impl Broadphase for LooseQuadtree {
     }
 
     fn order(&mut self) -> Option<&[u32]> {
-        self.cells.clear();
-        self.cells
+        self.order.clear();
+        self.order
             .extend(self.sorted.tag[..self.count].iter().map(|tag| tag.index));
-        Some(&self.cells)
+        Some(&self.order)
     }
 
     fn nodes(&self) -> Vec<[f64; 4]> {

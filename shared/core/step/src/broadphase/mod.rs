@@ -1,10 +1,13 @@
-//! Broadphases: which discs overlap. How the pairs are found changes the cost, never the pairs.
+//! Broadphases: which discs may overlap. How the pairs are found changes the cost, never what comes of it: pairs that
+//! only come near may be among them, and whoever asked looks again at the two balls, which he needs anyway.
 //!
 //! Discs are what balls are to a broadphase: for `overlap` contacts the balls themselves, for `event` contacts
 //! whatever bounds a ball's path over a tick. One file each, one trait, one table; [`brute`](self) is the judge of all.
 
 mod brute;
+mod cell_order;
 mod discs;
+mod found;
 mod lanes;
 mod levels;
 mod loose_quadtree;
@@ -13,8 +16,9 @@ mod relocated;
 mod sorted;
 
 pub use discs::{Discs, Reach};
+pub use found::Found;
 
-use crate::Vec2;
+use crate::{Team, Vec2};
 
 /// Indices of two discs, the lower first.
 pub type Pair = (u32, u32);
@@ -25,10 +29,10 @@ pub type Pair = (u32, u32);
 /// leave it as if it were new.
 pub trait Broadphase: Send + Sync {
     /// Takes in these discs in place of all earlier ones.
-    fn build(&mut self, discs: &Discs<'_>);
+    fn build(&mut self, discs: &Discs<'_>, team: &Team);
 
-    /// Appends every pair of discs that overlap, each once, in any order. The discs are those of the last build.
-    fn pairs(&mut self, discs: &Discs<'_>, found: &mut Vec<Pair>);
+    /// Finds at least every pair of discs that overlap, each once, in any order. The discs are those of the last build.
+    fn pairs(&mut self, discs: &Discs<'_>, team: &Team, found: &mut Found);
 
     /// Puts disc `index` elsewhere, with another reach.
     fn relocate(&mut self, index: usize, center: Vec2, reach: f64);

@@ -4,8 +4,8 @@
 //! node it has reached; one that sticks out of the root stays in the root's list. Leaves stop at a smallest size.
 //! Discs that moved into another node are removed and inserted; the rest of the tree stays.
 
-use super::{Broadphase, Discs, Pair, Settings, slack};
-use crate::Vec2;
+use super::{Broadphase, Discs, Found, Settings, slack};
+use crate::{Team, Vec2};
 
 const NONE: u32 = u32::MAX;
 const MAX_DEPTH: u32 = 24;
@@ -233,7 +233,7 @@ impl Quadtree {
 }
 
 impl Broadphase for Quadtree {
-    fn build(&mut self, discs: &Discs<'_>) {
+    fn build(&mut self, discs: &Discs<'_>, _team: &Team) {
         let depth = self.depth_for(discs);
         if depth != self.depth || discs.len() != self.places.len() || self.nodes.is_empty() {
             self.depth = depth;
@@ -253,7 +253,8 @@ impl Broadphase for Quadtree {
         }
     }
 
-    fn pairs(&mut self, discs: &Discs<'_>, found: &mut Vec<Pair>) {
+    fn pairs(&mut self, discs: &Discs<'_>, _team: &Team, found: &mut Found) {
+        let found = found.single();
         let mut near = std::mem::take(&mut self.found);
         for index in 0..discs.len() {
             near.clear();

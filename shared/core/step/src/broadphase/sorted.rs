@@ -1,8 +1,8 @@
 //! The discs of a loose quadtree in the order of its cells, and the test of one disc against runs of them.
 
-use super::Pair;
-use super::lanes::{LANES, near};
-use crate::Vec2;
+use std::ops::Range;
+
+use super::lanes::{LANES, beyond, lanes_at, lanes_of, near};
 
 #[derive(Clone, Copy, Default)]
 pub(super) struct Tag {
@@ -13,10 +13,10 @@ pub(super) struct Tag {
 /// The discs, sorted by cell; the arrays go on for a few lanes behind the last disc.
 #[derive(Default)]
 pub(super) struct Sorted {
-    pub(super) x: Vec<f64>,
-    pub(super) y: Vec<f64>,
+    pub(super) x: Vec<f32>,
+    pub(super) y: Vec<f32>,
     /// Unused if all discs share their reach.
-    pub(super) reach: Vec<f64>,
+    pub(super) reach: Vec<f32>,
     pub(super) tag: Vec<Tag>,
 }
 
@@ -29,96 +29,52 @@ impl Sorted {
     }
 }
 
-/// One disc, compared with others.
+/// One disc, compared with others: those have a reach each, or all the same, which is then in `reach`.
 pub(super) struct Probe<'a, const EACH: bool> {
-    sorted: &'a Sorted,
-    x: f64,
-    y: f64,
-    reach: f64,
-    index: u32,
+    pub(super) sorted: &'a Sorted,
+    pub(super) x: f32,
+    pub(super) y: f32,
+    pub(super) reach: f32,
 }
 
 impl<'a, const EACH: bool> Probe<'a, EACH> {
-    #[inline]
-    pub(super) fn new(sorted: &'a Sorted, slot: usize, reach: f64) -> Probe<'a, EACH> {
-        let reach = if EACH { sorted.reach[slot] } else { reach };
+    /// One of the sorted discs.
+    #[inline(always)]
+    pub(super) fn of(sorted: &'a Sorted, slot: usize, reach: f32) -> Probe<'a, EACH> {
         Probe {
             sorted,
             x: sorted.x[slot],
             y: sorted.y[slot],
             reach,
-            index: sorted.tag[slot].index,
         }
     }
 
-    /// A disc that is not among the sorted ones.
-    #[inline]
-    pub(super) fn at(sorted: &'a Sorted, center: Vec2, reach: f64) -> Probe<'a, EACH> {
-        Probe {
-            sorted,
-            x: center.x,
-            y: center.y,
-            reach,
-            index: u32::MAX,
-        }
-    }
-
-    /// A bit for each of the discs from `start` on that overlaps this one.
+    /// For each of the discs from `start` on, bits of which the highest is set if it is not near this one.
     #[inline(always)]
-    pub(super) fn lanes(&self, start: usize) -> u32 {
-        let squares = if EACH {
-            lanes_at(&self.sorted.reach, start).map(|reach| {
-                let sum = self.reach + reach;
-                sum * sum
-            })
+    pub(super) fn beyond(&self, start: usize) -> [u32; LANES] {
+        let sums = if EACH {
+            lanes_at(&self.sorted.reach, start).map(|reach| self.reach + reach)
         } else {
-            let sum = self.reach + self.reach;
-            [sum * sum; LANES]
+            [self.reach; LANES]
         };
-        near(
+        beyond(
             lanes_at(&self.sorted.x, start),
             lanes_at(&self.sorted.y, start),
             self.x,
             self.y,
-            &squares,
+            &sums,
         )
     }
 
+    /// Shows the slots of all near discs in a run.
     #[inline]
-    pub(super) fn report(&self, mut hits: u32, start: usize, found: &mut Vec<Pair>) {
-        while hits != 0 {
-            let slot = start + hits.trailing_zeros() as usize;
-            hits &= hits - 1;
-            let (dx, dy) = (self.sorted.x[slot] - self.x, self.sorted.y[slot] - self.y);
-            let sum = self.reach + if EACH { self.sorted.reach[slot] } else { self.reach };
-            if dx * dx + dy * dy < sum * sum {
-                let other = self.sorted.tag[slot].index;
-                found.push((self.index.min(other), self.index.max(other)));
+    pub(super) fn each(&self, run: Range<usize>, mut show: impl FnMut(usize)) {
+        for start in run.clone().step_by(LANES) {
+            let mut hits = near(self.beyond(start)) & lanes_of(run.end - start);
+            while hits != 0 {
+                show(start + hits.trailing_zeros() as usize);
+                hits &= hits - 1;
             }
         }
     }
-
-    /// What a run holds beyond its first lanes.
-    #[cold]
-    pub(super) fn rest(&self, run: std::ops::Range<usize>, found: &mut Vec<Pair>) {
-        let mut start = run.start + LANES;
-        while start < run.end {
-            self.report(self.lanes(start) & lanes_of(run.end - start), start, found);
-            start += LANES;
-        }
-    }
-}
-
-/// The numbers from `start` on, as many as there are lanes.
-#[inline]
-pub(super) fn lanes_at(numbers: &[f64], start: usize) -> &[f64; LANES] {
-    numbers[start..]
-        .first_chunk()
-        .expect("the arrays go on behind the last disc")
-}
-
-/// A bit for each lane that a run of that length fills.
-#[inline]
-pub(super) fn lanes_of(length: usize) -> u32 {
-    (1 << length.min(LANES)) - 1
 }

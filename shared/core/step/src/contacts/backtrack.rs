@@ -9,7 +9,7 @@ use crate::{Balls, Counters, Error, Rules, Vec2};
 
 #[derive(Default)]
 pub(super) struct Backtrack {
-    pairs: Pairs,
+    pairs: Pairs<Hit>,
     /// Mean accelerations of the move, which a wall's contact time depends on; empty without forces.
     accelerations: Vec<Vec2>,
 }
@@ -22,19 +22,30 @@ impl Contacts for Backtrack {
         if !matches!(substep.field, Field::None(_)) {
             self.accelerations.extend_from_slice(&balls.velocity);
         }
-        (substep.integrator.advance)(balls, substep.field, substep.time, dt);
+        (substep.integrator.advance)(balls, substep.field, substep.time, dt, substep.team);
         for (acceleration, &velocity) in self.accelerations.iter_mut().zip(&balls.velocity) {
             *acceleration = (velocity - *acceleration) * (1.0 / dt);
         }
-        self.pairs.find(balls, substep.broadphase);
-        let shares = SharesOf::new(balls, rules.restitution());
-        let mut collisions = 0;
-        self.pairs.treat(balls, |balls, first, second| {
-            if let Some(shares) = shares.pair(balls, first, second) {
-                collisions += u64::from(collide(balls, first, second, shares, dt));
+        self.pairs
+            .find_overlapping(balls, substep.broadphase, substep.team);
+        let alike = SharesOf::new(balls, rules.restitution());
+        let hit = |balls: &Balls, first: usize, second: usize| {
+            let shares = alike.pair(balls, first, second)?;
+            collide(
+                balls,
+                (first, second),
+                alike.reach(balls, first, second),
+                shares,
+                dt,
+            )
+        };
+        let apply = |balls: &mut Balls, first: usize, second: usize, Hit { shift, velocity }: Hit| {
+            for (at, index) in [first, second].into_iter().enumerate() {
+                balls.position[index] += shift[at];
+                balls.velocity[index] = velocity[at];
             }
-        });
-        substep.counters.collisions += collisions;
+        };
+        substep.counters.collisions += self.pairs.treat(balls, substep.team, &hit, &apply);
         walls(rules, balls, &self.accelerations, dt, substep.counters);
         Ok(())
     }
@@ -57,25 +68,31 @@ fn since(between: Vec2, relative: Vec2, reach: f64) -> Option<f64> {
     })
 }
 
-fn collide(balls: &mut Balls, first: usize, second: usize, shares: Shares, dt: f64) -> bool {
+/// What a collision does to two balls.
+#[derive(Clone, Copy)]
+struct Hit {
+    shift: [Vec2; 2],
+    velocity: [Vec2; 2],
+}
+
+fn collide(
+    balls: &Balls,
+    (first, second): (usize, usize),
+    reach: f64,
+    shares: Shares,
+    dt: f64,
+) -> Option<Hit> {
     let (p1, p2) = (balls.position[first], balls.position[second]);
-    let (mut v1, mut v2) = (balls.velocity[first], balls.velocity[second]);
-    // An earlier pair of this tick may have taken these two apart.
-    let Some(back) = since(p2 - p1, v2 - v1, balls.radius[first] + balls.radius[second]) else {
-        return false;
-    };
-    // A pair that overlapped before the tick began is taken back to its beginning, and judged there.
-    let back = back.min(dt);
-    let along = normal(p1 - v1 * back, p2 - v2 * back);
-    let (u1, u2) = (v1, v2);
-    if !exchange(along, shares, &mut v1, &mut v2) {
-        return false;
-    }
-    balls.position[first] += (v1 - u1) * back;
-    balls.position[second] += (v2 - u2) * back;
-    balls.velocity[first] = v1;
-    balls.velocity[second] = v2;
-    true
+    let (u1, u2) = (balls.velocity[first], balls.velocity[second]);
+    // An earlier pair of this tick may have taken these two apart. A pair that overlapped before the tick began is
+    // taken back to its beginning, and judged there.
+    let back = since(p2 - p1, u2 - u1, reach)?.min(dt);
+    let along = normal(p1 - u1 * back, p2 - u2 * back);
+    let (mut v1, mut v2) = (u1, u2);
+    exchange(along, shares, &mut v1, &mut v2).then(|| Hit {
+        shift: [(v1 - u1) * back, (v2 - u2) * back],
+        velocity: [v1, v2],
+    })
 }
 
 /// Takes balls that reach beyond a wall back to it, in the order left, right, bottom, top.

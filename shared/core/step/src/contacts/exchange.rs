@@ -38,10 +38,11 @@ impl Shares {
     }
 }
 
-/// The shares of any pair of a world: computed once if all balls weigh the same.
+/// Shares and reach of any pair of a world: computed once if all balls are alike.
 pub(super) struct SharesOf {
     restitution: f64,
     alike: Option<Option<Shares>>,
+    diameter: Option<f64>,
 }
 
 impl SharesOf {
@@ -49,7 +50,18 @@ impl SharesOf {
         let alike = balls
             .uniform()
             .map(|shape| Shares::new(shape.mass, shape.mass, restitution));
-        SharesOf { restitution, alike }
+        SharesOf {
+            restitution,
+            alike,
+            diameter: balls.uniform().map(|shape| shape.radius + shape.radius),
+        }
+    }
+
+    /// The distance at which two balls touch.
+    #[inline]
+    pub(super) fn reach(&self, balls: &Balls, first: usize, second: usize) -> f64 {
+        self.diameter
+            .unwrap_or_else(|| balls.radius[first] + balls.radius[second])
     }
 
     #[inline]

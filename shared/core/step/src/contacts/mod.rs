@@ -13,7 +13,7 @@ mod root;
 use crate::broadphase::Broadphase;
 use crate::force::Field;
 use crate::integrator::Integrator;
-use crate::{Balls, Counters, Error, Rules};
+use crate::{Balls, Counters, Error, Rules, Team};
 
 pub(crate) use pairs::Pairs;
 
@@ -34,6 +34,8 @@ pub struct Substep<'a> {
     pub integrator: &'static Integrator,
     /// Finds pairs.
     pub broadphase: &'a mut dyn Broadphase,
+    /// Who does the work.
+    pub team: &'a Team,
     /// The tick being made.
     pub tick: u64,
     /// Simulated time at the start.

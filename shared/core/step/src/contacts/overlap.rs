@@ -3,34 +3,37 @@
 
 use super::exchange::{SharesOf, exchange, normal};
 use super::{Contacts, Pairs, Substep};
-use crate::{Error, walls};
+use crate::{Balls, Error, Vec2, walls};
 
 #[derive(Default)]
 pub(super) struct Overlap {
-    pairs: Pairs,
+    pairs: Pairs<[Vec2; 2]>,
 }
 
 impl Contacts for Overlap {
     fn advance(&mut self, substep: &mut Substep<'_>) -> Result<(), Error> {
         let balls = &mut *substep.balls;
-        (substep.integrator.advance)(balls, substep.field, substep.time, substep.dt);
-        self.pairs.find(balls, substep.broadphase);
+        (substep.integrator.advance)(balls, substep.field, substep.time, substep.dt, substep.team);
+        self.pairs.find(balls, substep.broadphase, substep.team);
         let shares = SharesOf::new(balls, substep.rules.restitution());
-        let mut collisions = 0;
-        self.pairs.treat(balls, |balls, first, second| {
-            let Some(shares) = shares.pair(balls, first, second) else {
-                return;
-            };
-            let along = normal(balls.position[first], balls.position[second]);
+        let hit = |balls: &Balls, first: usize, second: usize| {
+            let (p1, p2) = (balls.position[first], balls.position[second]);
             let (mut v1, mut v2) = (balls.velocity[first], balls.velocity[second]);
-            if exchange(along, shares, &mut v1, &mut v2) {
+            let reach = shares.reach(balls, first, second);
+            if (p1 - p2).square() >= reach * reach {
+                return None;
+            }
+            let shares = shares.pair(balls, first, second)?;
+            exchange(normal(p1, p2), shares, &mut v1, &mut v2).then_some([v1, v2])
+        };
+        let collisions = self
+            .pairs
+            .treat(balls, substep.team, &hit, &|balls, first, second, [v1, v2]| {
                 balls.velocity[first] = v1;
                 balls.velocity[second] = v2;
-                collisions += 1;
-            }
-        });
+            });
         substep.counters.collisions += collisions;
-        walls::reflect(substep.rules, balls, substep.counters);
+        walls::reflect(substep.rules, balls, substep.counters, substep.team);
         Ok(())
     }
 }

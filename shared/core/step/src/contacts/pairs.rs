@@ -1,10 +1,11 @@
-//! The overlapping pairs of a substep, in the order in which they are treated.
+//! The pairs of a substep, in the order in which they are treated.
 //!
 //! That order is (lower id, higher id). It can only show in balls that are in two pairs or more; a pair that shares no
-//! ball with another is treated where it was found, while it is still in the cache, and needs no sorting.
+//! ball with another is treated where it was found, while it is still in the cache, and needs no sorting. What comes of
+//! such pairs is independent, so it can be worked out at once; only the writing is one after the other.
 
-use crate::Balls;
-use crate::broadphase::{Broadphase, Discs, Pair, Reach};
+use crate::broadphase::{Broadphase, Discs, Found, Pair, Reach};
+use crate::{Balls, Team};
 
 /// A pair that shares a ball with another one.
 #[derive(Clone, Copy)]
@@ -14,60 +15,159 @@ struct Entangled {
     second: u32,
 }
 
-/// Scratch memory for the pairs of one substep.
-#[derive(Default)]
-pub(crate) struct Pairs {
-    found: Vec<Pair>,
-    /// In how many pairs each ball is; all 0 between substeps.
-    counts: Vec<u8>,
+impl Entangled {
+    fn new(balls: &Balls, first: usize, second: usize) -> Entangled {
+        Entangled {
+            ids: (balls.id[first], balls.id[second]),
+            first: first as u32,
+            second: second as u32,
+        }
+    }
+}
+
+/// What a piece of the work on pairs leaves behind.
+struct Piece<O> {
+    outcomes: Vec<(u32, u32, O)>,
     entangled: Vec<Entangled>,
 }
 
-impl Pairs {
-    /// Finds the pairs that overlap.
-    pub(crate) fn find(&mut self, balls: &Balls, broadphase: &mut dyn Broadphase) {
-        let reach = match balls.uniform() {
-            Some(shape) => Reach::Same(shape.radius),
-            None => Reach::Each(&balls.radius),
-        };
-        let discs = Discs {
-            center: &balls.position,
-            reach,
-        };
-        self.found.clear();
-        broadphase.build(&discs);
-        broadphase.pairs(&discs, &mut self.found);
+impl<O> Piece<O> {
+    fn work_out(
+        &mut self,
+        balls: &Balls,
+        list: &[Pair],
+        counts: &[u8],
+        outcome: &impl Fn(&Balls, usize, usize) -> Option<O>,
+    ) {
+        for &pair in list {
+            let (first, second) = by_id(balls, pair);
+            if (counts[first], counts[second]) != (1, 1) {
+                self.entangled.push(Entangled::new(balls, first, second));
+            } else if let Some(outcome) = outcome(balls, first, second) {
+                self.outcomes.push((first as u32, second as u32, outcome));
+            }
+        }
+    }
+}
+
+/// Scratch memory for the pairs of one substep; `O` is what can come of a pair.
+pub(crate) struct Pairs<O> {
+    found: Found,
+    /// In how many pairs each ball is; all 0 between substeps.
+    counts: Vec<u8>,
+    pieces: Vec<Piece<O>>,
+    entangled: Vec<Entangled>,
+}
+
+impl<O> Default for Pairs<O> {
+    fn default() -> Pairs<O> {
+        Pairs {
+            found: Found::default(),
+            counts: Vec::new(),
+            pieces: Vec::new(),
+            entangled: Vec::new(),
+        }
+    }
+}
+
+impl<O: Copy + Send> Pairs<O> {
+    /// Finds at least the pairs that overlap.
+    pub(crate) fn find(&mut self, balls: &Balls, broadphase: &mut dyn Broadphase, team: &Team) {
+        let discs = discs_of(balls);
+        broadphase.build(&discs, team);
+        broadphase.pairs(&discs, team, &mut self.found);
     }
 
-    /// Shows the pairs as (index of the lower id, index of the higher id), as if in order of these ids.
-    pub(crate) fn treat(&mut self, balls: &mut Balls, mut treat: impl FnMut(&mut Balls, usize, usize)) {
-        self.counts.resize(balls.len(), 0);
-        for &(first, second) in &self.found {
+    /// Finds the pairs that overlap, and no others.
+    pub(crate) fn find_overlapping(&mut self, balls: &Balls, broadphase: &mut dyn Broadphase, team: &Team) {
+        self.find(balls, broadphase, team);
+        self.found.keep_overlapping(&discs_of(balls), team);
+    }
+
+    /// Treats the pairs as if in order of (lower id, higher id). `outcome` and `apply` get a pair as indices, the lower
+    /// id first. Returns how many pairs had an outcome.
+    pub(crate) fn treat(
+        &mut self,
+        balls: &mut Balls,
+        team: &Team,
+        outcome: &(impl Fn(&Balls, usize, usize) -> Option<O> + Sync),
+        apply: &impl Fn(&mut Balls, usize, usize, O),
+    ) -> u64 {
+        self.count(balls.len());
+        let mut treated = 0;
+        let mut treat = |balls: &mut Balls, first: usize, second: usize| {
+            if let Some(outcome) = outcome(balls, first, second) {
+                apply(balls, first, second, outcome);
+                treated += 1;
+            }
+        };
+        self.entangled.clear();
+        if team.size() == 1 {
+            for pair in self.found.iter() {
+                let (first, second) = by_id(balls, pair);
+                if (self.counts[first], self.counts[second]) == (1, 1) {
+                    treat(balls, first, second);
+                } else {
+                    self.entangled.push(Entangled::new(balls, first, second));
+                }
+            }
+        } else {
+            self.work_out(balls, team, outcome);
+        }
+        self.entangled.sort_unstable_by_key(|pair| pair.ids);
+        for pair in &self.entangled {
+            treat(balls, pair.first as usize, pair.second as usize);
+        }
+        for &(first, second, outcome) in self.pieces.iter().flat_map(|piece| &piece.outcomes) {
+            apply(balls, first as usize, second as usize, outcome);
+            treated += 1;
+        }
+        self.forget();
+        treated
+    }
+
+    /// Works out what comes of each pair that shares no ball with another, and collects the others.
+    fn work_out(
+        &mut self,
+        balls: &Balls,
+        team: &Team,
+        outcome: &(impl Fn(&Balls, usize, usize) -> Option<O> + Sync),
+    ) {
+        let lists = self.found.lists();
+        self.pieces.resize_with(lists.len(), || Piece {
+            outcomes: Vec::new(),
+            entangled: Vec::new(),
+        });
+        let counts = &self.counts[..];
+        team.each((&mut self.pieces[..], lists), 1, &|(pieces, lists)| {
+            for (piece, list) in pieces.iter_mut().zip(lists) {
+                piece.work_out(balls, list, counts, outcome);
+            }
+        });
+        for piece in &mut self.pieces {
+            self.entangled.append(&mut piece.entangled);
+        }
+    }
+
+    /// Counts in how many pairs each ball is.
+    fn count(&mut self, balls: usize) {
+        self.counts.resize(balls, 0);
+        for (first, second) in self.found.iter() {
             for index in [first, second] {
                 let count = &mut self.counts[index as usize];
                 *count = count.saturating_add(1);
             }
         }
-        self.entangled.clear();
-        for &pair in &self.found {
-            let (first, second) = by_id(balls, pair);
-            if (self.counts[first], self.counts[second]) == (1, 1) {
-                treat(balls, first, second);
-            } else {
-                self.entangled.push(Entangled {
-                    ids: (balls.id[first], balls.id[second]),
-                    first: first as u32,
-                    second: second as u32,
-                });
-            }
-        }
-        for &(first, second) in &self.found {
+    }
+
+    /// Leaves the counts at 0, without a look at balls that are in no pair, and no outcome behind.
+    fn forget(&mut self) {
+        for (first, second) in self.found.iter() {
             self.counts[first as usize] = 0;
             self.counts[second as usize] = 0;
         }
-        self.entangled.sort_unstable_by_key(|pair| pair.ids);
-        for pair in &self.entangled {
-            treat(balls, pair.first as usize, pair.second as usize);
+        for piece in &mut self.pieces {
+            piece.outcomes.clear();
         }
     }
 
@@ -76,11 +176,22 @@ impl Pairs {
         let mut pairs: Vec<_> = self
             .found
             .iter()
-            .map(|&pair| by_id(balls, pair))
+            .map(|pair| by_id(balls, pair))
             .map(|(first, second)| (first as u32, second as u32))
             .collect();
         pairs.sort_unstable_by_key(|&(first, second)| (balls.id[first as usize], balls.id[second as usize]));
         pairs
+    }
+}
+
+/// The balls as a broadphase sees them.
+fn discs_of(balls: &Balls) -> Discs<'_> {
+    Discs {
+        center: &balls.position,
+        reach: match balls.uniform() {
+            Some(shape) => Reach::Same(shape.radius),
+            None => Reach::Each(&balls.radius),
+        },
     }
 }
 

@@ -6,7 +6,7 @@ use super::{Body, Force, HeldNow};
 use crate::{Balls, Vec2};
 
 /// The acceleration that an integrator asks for; the compiler makes each integrator anew for each form.
-pub trait Acceleration {
+pub trait Acceleration: Sync {
     /// Whether it is 0 always.
     const ZERO: bool;
 

@@ -6,7 +6,11 @@ mod symplectic_euler;
 mod verlet;
 
 use crate::force::{Acceleration, Body, Field};
+use crate::team::Team;
 use crate::{Balls, Vec2};
+
+/// Balls that one piece of work moves, at least.
+const GRAIN: usize = 1024;
 
 /// A scheme moves one ball over `dt` seconds.
 trait Scheme {
@@ -15,7 +19,7 @@ trait Scheme {
 }
 
 /// Moves all balls from `time` by `dt` seconds.
-pub type Advance = fn(balls: &mut Balls, field: &Field, time: f64, dt: f64);
+pub type Advance = fn(balls: &mut Balls, field: &Field, time: f64, dt: f64, team: &Team);
 
 /// A registered integrator.
 pub struct Integrator {
@@ -45,34 +49,42 @@ pub static TABLE: [Integrator; 4] = [
     },
 ];
 
-fn advance<S: Scheme>(balls: &mut Balls, field: &Field, time: f64, dt: f64) {
+fn advance<S: Scheme>(balls: &mut Balls, field: &Field, time: f64, dt: f64, team: &Team) {
     match field {
-        Field::None(none) => each::<S, _>(balls, none, time, dt),
-        Field::Constant(constant) => each::<S, _>(balls, constant, time, dt),
-        Field::Sum(sum) => each::<S, _>(balls, sum, time, dt),
+        Field::None(none) => each::<S, _>(balls, none, time, dt, team),
+        Field::Constant(constant) => each::<S, _>(balls, constant, time, dt, team),
+        Field::Sum(sum) => each::<S, _>(balls, sum, time, dt, team),
     }
 }
 
-fn each<S: Scheme, A: Acceleration>(balls: &mut Balls, acceleration: &A, time: f64, dt: f64) {
+fn each<S: Scheme, A: Acceleration>(balls: &mut Balls, acceleration: &A, time: f64, dt: f64, team: &Team) {
+    let count = balls.len();
     if A::ZERO {
         // All schemes agree on a straight line, and this loop reads no masses.
-        for (position, velocity) in balls.position.iter_mut().zip(&balls.velocity) {
-            *position += *velocity * dt;
-        }
+        let whole = (&mut balls.position[..], &balls.velocity[..]);
+        team.each(whole, GRAIN, &|(positions, velocities)| {
+            for (position, velocity) in positions.iter_mut().zip(velocities) {
+                *position += *velocity * dt;
+            }
+        });
         return;
     }
-    let moving = balls
-        .position
-        .iter_mut()
-        .zip(&mut balls.velocity)
-        .zip(&balls.mass);
-    for (index, ((position, velocity), &mass)) in moving.enumerate() {
-        let body = Body {
-            index,
-            mass,
-            position: *position,
-            velocity: *velocity,
-        };
-        (*position, *velocity) = S::advance(acceleration, time, dt, body);
-    }
+    let whole = (
+        &mut balls.position[..],
+        &mut balls.velocity[..],
+        &balls.mass[..],
+        0..count,
+    );
+    team.each(whole, GRAIN, &|(positions, velocities, masses, indices)| {
+        let moving = positions.iter_mut().zip(velocities).zip(masses).zip(indices);
+        for (((position, velocity), &mass), index) in moving {
+            let body = Body {
+                index,
+                mass,
+                position: *position,
+                velocity: *velocity,
+            };
+            (*position, *velocity) = S::advance(acceleration, time, dt, body);
+        }
+    });
 }

@@ -16,7 +16,7 @@ mod queue;
 mod rest;
 
 use super::{Contacts, EVENT_LIMIT, Substep};
-use crate::broadphase::{Discs, Pair, Reach};
+use crate::broadphase::{Discs, Found, Reach};
 use crate::force::{Acceleration, Body, Field};
 use crate::walls::Walls;
 use crate::{Error, Vec2};
@@ -29,7 +29,7 @@ use queue::{Event, Partner, Queue};
 pub(super) struct EventDriven {
     paths: Paths,
     queue: Queue,
-    pairs: Vec<Pair>,
+    found: Found,
     near: Vec<u32>,
     /// Balls that the last event gave new paths.
     changed: Vec<usize>,
@@ -85,10 +85,9 @@ impl EventDriven {
             center: &self.paths.center,
             reach: Reach::Each(&self.paths.reach),
         };
-        self.pairs.clear();
-        substep.broadphase.build(&discs);
-        substep.broadphase.pairs(&discs, &mut self.pairs);
-        for &(first, second) in &self.pairs {
+        substep.broadphase.build(&discs, substep.team);
+        substep.broadphase.pairs(&discs, substep.team, &mut self.found);
+        for (first, second) in self.found.iter() {
             self.paths.note_touch(balls, first as usize, second as usize);
             if let Some(time) = predict::pair(&self.paths, balls, first as usize, second as usize) {
                 self.queue

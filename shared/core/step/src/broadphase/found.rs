@@ -1,0 +1,51 @@
+//! The pairs that a broadphase found: a list for each piece of the search, so that pieces can be searched at once.
+
+use super::{Discs, Pair};
+use crate::team::Team;
+
+/// Pairs, in the order in which they were found.
+#[derive(Default)]
+pub struct Found {
+    lists: Vec<Vec<Pair>>,
+}
+
+impl Found {
+    /// Empties the lists and returns one for each piece of work that the team cuts a search into.
+    pub(crate) fn begin(&mut self, team: &Team) -> &mut [Vec<Pair>] {
+        let pieces = team.pieces();
+        if self.lists.len() != pieces {
+            self.lists.resize_with(pieces, Vec::new);
+        }
+        self.lists.iter_mut().for_each(Vec::clear);
+        &mut self.lists
+    }
+
+    /// The only list of a search in one piece, empty.
+    pub(crate) fn single(&mut self) -> &mut Vec<Pair> {
+        self.lists.iter_mut().for_each(Vec::clear);
+        if self.lists.is_empty() {
+            self.lists.push(Vec::new());
+        }
+        &mut self.lists[0]
+    }
+
+    /// Keeps only the pairs that do overlap.
+    pub fn keep_overlapping(&mut self, discs: &Discs<'_>, team: &Team) {
+        team.each(&mut self.lists[..], 1, &|lists| {
+            for list in lists {
+                list.retain(|&(first, second)| discs.overlap(first as usize, second as usize));
+            }
+        });
+    }
+
+    /// The lists.
+    #[must_use]
+    pub fn lists(&self) -> &[Vec<Pair>] {
+        &self.lists
+    }
+
+    /// All pairs.
+    pub fn iter(&self) -> impl Iterator<Item = Pair> + Clone + '_ {
+        self.lists.iter().flatten().copied()
+    }
+}
