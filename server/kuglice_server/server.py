@@ -21,8 +21,8 @@ from kuglice.protocol import (
     Keys,
     Status,
     close_session,
-    is_loopback,
     open_session,
+    refuse_exposed,
     server_configuration,
 )
 from kuglice_server.answer import Answers
@@ -63,12 +63,8 @@ class ServerSettings:
     def __post_init__(self) -> None:
         if not self.listen and not self.connect:
             raise ProtocolError("endpoints: none to listen on and none to connect to")
-        for endpoint in self.listen:
-            if not is_loopback(endpoint) and not self.insecure:
-                raise ProtocolError(
-                    f"endpoint {endpoint!r}: others can reach it, and there are no accounts and no "
-                    "encryption yet; say --insecure if that is what you want"
-                )
+        if not self.insecure:
+            refuse_exposed(self.listen)
         if self.snapshot_every is not None and self.snapshot_every < 1:
             raise ProtocolError(f"snapshot-every {self.snapshot_every}: must be at least 1 tick")
         if self.rate is not None and not 0 < self.rate <= 10_000:

@@ -6,25 +6,20 @@ Server and clients are started by their commands, as a user would start them; no
 from __future__ import annotations
 
 import json
-import os
-import signal
-import socket
-import subprocess
-import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from kuglice.errors import KugliceError
+from kuglice.processes import CommandProcess, free_port
 from kuglice.replay import Replay, Verification
 from kuglice.world import World
 
 __all__ = ["DemoOutcome", "DemoSettings", "play"]
 
 POLL_SECONDS = 0.05
-STOP_SECONDS = 5.0
 START_SECONDS = 20.0
 RECORDING = "game.kuglice"
 STILLS = 4
@@ -90,12 +85,12 @@ def play(settings: DemoSettings, progress: Callable[[float, str], None]) -> Demo
     for bot in settings.bots:
         # What an earlier demo left would hide a client that ends without a word.
         _summary(settings, bot).unlink(missing_ok=True)
-    endpoint = f"tcp/127.0.0.1:{_free_port()}"
-    processes: dict[str, _Process] = {}
+    endpoint = f"tcp/127.0.0.1:{free_port()}"
+    processes: dict[str, CommandProcess] = {}
     try:
-        processes["server"] = _Process(out, "server", _server_arguments(settings, endpoint))
+        processes["server"] = CommandProcess(out, "server", _server_arguments(settings, endpoint))
         for bot in settings.bots:
-            processes[bot] = _Process(out, bot, _client_arguments(settings, endpoint, bot))
+            processes[bot] = CommandProcess(out, bot, _client_arguments(settings, endpoint, bot))
         _wait(processes, settings, began, progress)
         clients = {bot: json.loads(_summary(settings, bot).read_text()) for bot in settings.bots}
         server = json.loads(processes["server"].stdout())
@@ -136,47 +131,8 @@ def _client_arguments(settings: DemoSettings, endpoint: str, bot: str) -> list[s
     return ["client", *(str(word) for option in options.items() for word in option), "--json"]
 
 
-class _Process:
-    """A command in a process of its own; what it says goes to files, so no pipe can fill up."""
-
-    def __init__(self, out: Path, name: str, arguments: Sequence[str]) -> None:
-        self.name = name
-        self._log = out / f"{name}.log"
-        self._data = out / f"{name}.stdout.json"
-        with self._log.open("wb") as log, self._data.open("wb") as data:
-            self._process = subprocess.Popen(
-                [sys.executable, "-m", "kuglice", *arguments],
-                stdin=subprocess.DEVNULL,
-                stdout=data,
-                stderr=log,
-                env={**os.environ, "PYTHONUNBUFFERED": "1"},
-                # Ctrl-C is ours to hear; we then stop them in order.
-                start_new_session=True,
-            )
-
-    @property
-    def code(self) -> int | None:
-        return self._process.poll()
-
-    def stdout(self) -> str:
-        return self._data.read_text()
-
-    def words(self) -> str:
-        return "\n".join(self._log.read_text(errors="replace").strip().splitlines()[-12:])
-
-    def end(self) -> None:
-        if self._process.poll() is None:
-            self._process.send_signal(signal.SIGTERM)
-            try:
-                self._process.wait(STOP_SECONDS)
-            except subprocess.TimeoutExpired:
-                self._process.kill()
-                self._process.wait()
-        self._data.unlink(missing_ok=True)
-
-
 def _wait(
-    processes: dict[str, _Process],
+    processes: dict[str, CommandProcess],
     settings: DemoSettings,
     began: float,
     progress: Callable[[float, str], None],
@@ -209,10 +165,3 @@ def _verify(path: Path, clients: dict[str, dict[str, Any]]) -> tuple[Verificatio
         name: found.get(client["final_tick"]) == client["final_hash"] for name, client in clients.items()
     }
     return verification, recorded
-
-
-def _free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port: int = probe.getsockname()[1]
-        return port

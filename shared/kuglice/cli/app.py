@@ -17,8 +17,20 @@ __all__ = ["GROUP", "build"]
 
 GROUP = "kuglice.commands"
 """Entry points: modules with `register(app)`."""
-OWN = ("scenes", "plan", "replay", "demo")
-ORDER = ("demo", "scenes", "plan", "render", "server", "client", "replay", "chart", "bench", "proxy")
+OWN = ("scenes", "plan", "replay", "demo", "router")
+ORDER = (
+    "demo",
+    "scenes",
+    "plan",
+    "render",
+    "server",
+    "client",
+    "router",
+    "replay",
+    "chart",
+    "bench",
+    "proxy",
+)
 """Of the commands in --help: first to see what there is, then to use it, then to measure it. Others come last."""
 
 

@@ -6,7 +6,7 @@ import csv
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
-__all__ = ["Row", "Rows", "Value", "read_csv", "where", "write_csv"]
+__all__ = ["Row", "Rows", "Value", "read_csv", "rounded", "where", "write_csv"]
 
 Value = str | int | float
 Row = Mapping[str, Value]
@@ -36,6 +36,17 @@ def read_csv(path: Path) -> list[dict[str, Value]]:
 def where(rows: Rows, **wanted: Value) -> list[Row]:
     """The rows that have all these values."""
     return [row for row in rows if all(row.get(name) == value for name, value in wanted.items())]
+
+
+def rounded(rows: Rows, digits: int = 3) -> list[Row]:
+    """The same rows for people: so many digits that count."""
+    return [
+        {
+            name: float(f"{value:.{digits}g}") if isinstance(value, float) else value
+            for name, value in row.items()
+        }
+        for row in rows
+    ]
 
 
 def _value(text: str) -> Value:

@@ -4,6 +4,7 @@ Server and client both speak through this package and through nothing else.
 """
 
 from kuglice.protocol.codec import decode, encode
+from kuglice.protocol.exposure import refuse_exposed
 from kuglice.protocol.keys import ANY_STATUS, Keys, check_name
 from kuglice.protocol.messages import (
     MAX_INPUTS,
@@ -68,6 +69,7 @@ __all__ = [
     "encode",
     "is_loopback",
     "open_session",
+    "refuse_exposed",
     "server_configuration",
     "split",
 ]

@@ -1,7 +1,6 @@
 """`kuglice bench`: what a ball-step costs, with peers on the same initial state in the same run."""
 
 from kuglice.lab.bench.case import Case
-from kuglice.lab.bench.results import Results, write
 from kuglice.lab.bench.table import cases
 
-__all__ = ["Case", "Results", "cases", "write"]
+__all__ = ["Case", "cases"]

@@ -11,8 +11,11 @@ import typer
 
 from kuglice.cli.rows import print_rows
 from kuglice.lab import bench as benches
+from kuglice.lab.cli import capacity
 from kuglice.lab.cli.progress import progress
 from kuglice.lab.machine import this_machine
+from kuglice.lab.results import Results, write
+from kuglice.lab.rows import rounded
 
 __all__ = ["register"]
 
@@ -21,6 +24,7 @@ def register(app: typer.Typer) -> None:
     """Add the command; what else can be measured is a command under it."""
     group = typer.Typer(invoke_without_command=True)
     group.callback()(bench)
+    capacity.register(group)
     app.add_typer(group, name="bench")
 
 
@@ -45,7 +49,7 @@ def bench(  # noqa: PLR0917 - typer makes options of them
     """
     if context.invoked_subcommand is not None:
         return
-    results = benches.Results(this_machine())
+    results = Results(this_machine())
     chosen = [
         case
         for case in benches.cases(peers=peers, quick=quick, repeats=repeats)
@@ -58,15 +62,10 @@ def bench(  # noqa: PLR0917 - typer makes options of them
             note(case.name)
             results.rows += case.run()
             results.left_out += [f"{case.name}: without {reason}" for reason in case.left_out]
-    written = benches.write(results, out)
+    written = write(results, out, "bench")
     if as_json:
         print(json.dumps(results.to_message(), indent=2))
     else:
-        rows = [{name: _shown(value) for name, value in row.items()} for row in results.rows]
-        print_rows(" | ".join(results.machine.lines()), rows, as_json=False)
+        print_rows(" | ".join(results.machine.lines()), rounded(results.rows), as_json=False)
     for line in [*results.left_out, *(f"wrote {path}" for path in written)]:
         print(line, file=sys.stderr)
-
-
-def _shown(value: object) -> object:
-    return float(f"{value:.3g}") if isinstance(value, float) else value

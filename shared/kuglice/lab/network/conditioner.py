@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import select
-import socket
 import subprocess
 import sys
 from collections.abc import Mapping
@@ -14,8 +13,9 @@ from kuglice.errors import NetworkError
 from kuglice.lab.network.conditions import Conditions
 from kuglice.lab.network.tun_device import why_impossible
 from kuglice.lab.network.tunnel import SERVER_ADDRESS
+from kuglice.processes import free_port
 
-__all__ = ["Conditioner", "ProxyLink", "TunnelLink", "free_port", "open_link"]
+__all__ = ["Conditioner", "ProxyLink", "TunnelLink", "open_link"]
 
 ANSWER_SECONDS = 10.0
 END_SECONDS = 5.0
@@ -146,12 +146,3 @@ def open_link(conditions: Conditions, kind: str = "auto") -> Conditioner:
             return ProxyLink(conditions)
         case _:
             raise NetworkError(f"link {kind!r}: must be auto, tunnel or proxy")
-
-
-def free_port() -> int:
-    """One on which nothing listens now, neither for TCP nor for UDP."""
-    with socket.socket() as probe, socket.socket(type=socket.SOCK_DGRAM) as datagrams:
-        probe.bind(("127.0.0.1", 0))
-        port: int = probe.getsockname()[1]
-        datagrams.bind(("127.0.0.1", port))
-        return port

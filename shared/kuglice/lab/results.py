@@ -1,4 +1,4 @@
-"""The figures of one bench run: JSON and CSV, each with the machine."""
+"""The figures of one run of a bench: JSON and CSV, each with the machine."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ class Results:
         }
 
 
-def write(results: Results, directory: Path) -> list[Path]:
-    """bench.json and bench.csv; their paths."""
+def write(results: Results, directory: Path, name: str) -> list[Path]:
+    """`name`.json and `name`.csv; their paths."""
     directory.mkdir(parents=True, exist_ok=True)
-    as_json, as_csv = directory / "bench.json", directory / "bench.csv"
+    as_json, as_csv = directory / f"{name}.json", directory / f"{name}.csv"
     as_json.write_text(json.dumps(results.to_message(), indent=2) + "\n", encoding="utf-8")
     write_csv(as_csv, results.rows, [*results.machine.lines(), *results.left_out])
     return [as_json, as_csv]

@@ -1,0 +1,32 @@
+"""`kuglice router`: clients behind it have the server's bits, and it exposes nothing unasked."""
+
+from __future__ import annotations
+
+from e2e.processes import free_endpoint, until
+from e2e.verdict import assert_all_equal
+
+
+def test_clients_behind_a_router_agree_on_every_state(start, server, endpoint, tmp_path):
+    door = free_endpoint()
+    start("router", "--connect", endpoint, "--listen", door)
+    player = start("client", "--connect", door, "--bot", "chaser", "--seconds", 2, "--json")
+    figures = player.figures()
+    server.signal(2)
+    server.figures()
+    assert_all_equal(tmp_path / "run.kuglice", [figures])
+    assert figures["inputs_accepted"] > 5
+
+
+def test_an_address_that_others_reach_is_refused(start):
+    router = start("router", "--listen", "tcp/0.0.0.0:0")
+    assert router.wait() == 2
+    assert "--insecure" in router.err
+
+
+def test_a_router_may_come_before_its_server(start, scene, endpoint):
+    door = free_endpoint()
+    router = start("router", "--connect", endpoint, "--listen", door)
+    until(lambda: "router from" in router.err, what="the router is there")
+    start("server", scene, "--listen", endpoint)
+    player = start("client", "--connect", door, "--name", "ana", "--wait", 20, "--seconds", 1, "--json")
+    assert player.figures()["agreed"]
