@@ -30,7 +30,9 @@ def endpoint() -> str:
 def start(tmp_path: Path) -> Iterator[Callable[..., Command]]:
     """Start commands that are ended with the test."""
     with ExitStack() as running:
-        yield lambda *arguments: running.enter_context(Command(tmp_path, *arguments))
+        yield lambda *arguments, prefix=(): running.enter_context(
+            Command(tmp_path, *arguments, prefix=prefix)
+        )
 
 
 @pytest.fixture

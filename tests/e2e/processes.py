@@ -9,7 +9,7 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Self
 
@@ -34,17 +34,21 @@ def until(condition: Callable[[], Any], *, seconds: float = 30.0, what: str = "c
 
 
 class Command:
-    """`kuglice ARGUMENTS`, killed at the end of the `with` if it has not ended by itself."""
+    """`kuglice ARGUMENTS`, killed at the end of the `with` if it has not ended by itself.
 
-    def __init__(self, folder: Path, *arguments: object) -> None:
+    `prefix`: words before the command, for one that enters another place first.
+    """
+
+    def __init__(self, folder: Path, *arguments: object, prefix: Sequence[str] = ()) -> None:
         self._folder = folder
+        self._prefix = prefix
         self._arguments = [str(argument) for argument in arguments]
         self._stem = f"{self._arguments[0]}-{len(list(folder.glob('*.err')))}"
 
     def __enter__(self) -> Self:
         with self._file("out").open("wb") as out, self._file("err").open("wb") as err:
             self._process = subprocess.Popen(
-                [sys.executable, "-m", "kuglice", *self._arguments],
+                [*self._prefix, sys.executable, "-m", "kuglice", *self._arguments],
                 stdin=subprocess.DEVNULL,
                 stdout=out,
                 stderr=err,

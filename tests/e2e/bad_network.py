@@ -1,0 +1,63 @@
+"""A server and clients with a conditioned link between them."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from e2e.processes import Command, until
+from e2e.verdict import assert_all_equal
+from kuglice.lab.network import Conditioner
+from kuglice.replay import Replay
+
+__all__ = ["Play"]
+
+
+class Play:
+    """The server runs at once; `protocols` are those of the link between it and its clients."""
+
+    def __init__(
+        self,
+        start: Callable[..., Command],
+        scene: Path,
+        folder: Path,
+        link: Conditioner,
+        protocols: Sequence[str] = ("tcp",),
+    ) -> None:
+        self._start = start
+        self._link = link
+        self._connect = [
+            word for name in protocols for word in ("--connect", f"{name}/{link.client_address}")
+        ]
+        self._recording = folder / "bad.kuglice"
+        listen = [word for name in protocols for word in ("--listen", f"{name}/{link.server_address}")]
+        arguments = ("server", scene, *listen, "--insecure", "--record", self._recording, "--json")
+        self.server = start(*arguments, prefix=link.server_prefix)
+
+    def join(self, name: str, bot: str | None = None) -> Command:
+        """A client that has joined."""
+        acts = () if bot is None else ("--bot", bot)
+        client = self._start(
+            *("client", *self._connect, "--name", name, *acts, "--wait", 30, "--json"),
+            prefix=self._link.client_prefix,
+        )
+        until(lambda: "joined world" in client.err, what=f"{name} joins")
+        return client
+
+    def go_on(self, ticks: int) -> None:
+        """Let the server run so many ticks more."""
+        until(self._recording.exists, what="a recording")
+        wanted = len(Replay.load(self._recording)) + ticks
+        until(lambda: len(Replay.load(self._recording)) >= wanted, what=f"{ticks} more ticks")
+
+    def end(self, *clients: Command) -> list[dict[str, Any]]:
+        """The figures of the clients, after a check that everybody had the same states."""
+        for client in clients:
+            client.signal(signal.SIGINT)
+        figures = [client.figures() for client in clients]
+        self.server.signal(signal.SIGINT)
+        self.server.figures()
+        assert_all_equal(self._recording, figures)
+        return figures

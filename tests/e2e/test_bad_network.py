@@ -1,0 +1,72 @@
+"""Real processes over a link with delay, jitter, loss, stalls and cuts: everybody keeps the server's bits.
+
+Through a proxy everywhere, and as root through a tunnel, where real TCP has to live with real loss.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from e2e.bad_network import Play
+from e2e.processes import until
+from kuglice.lab.network import Conditions, open_link
+from kuglice.lab.network.tun_device import why_impossible
+
+BAD = Conditions(round_trip=0.15, jitter=0.2, loss=0.02, seed=5)
+TUNNEL = pytest.param(
+    "tunnel", marks=pytest.mark.skipif(why_impossible() is not None, reason=why_impossible() or "")
+)
+
+
+@pytest.fixture(params=["proxy", TUNNEL])
+def link(request):
+    with open_link(BAD, request.param) as opened:
+        yield opened
+
+
+def test_players_act_and_agree_under_delay_jitter_and_loss(start, scene, tmp_path, link):
+    play = Play(start, scene, tmp_path, link)
+    players = [play.join("ana", "chaser"), play.join("bob", "herder")]
+    play.go_on(200)
+    for figures in play.end(*players):
+        assert figures["hashes_checked"] > 150
+        assert figures["inputs_accepted"] >= 10
+        assert figures["inputs_refused"] == 0
+        assert figures["snapshots_taken"] == 0
+        assert figures["rejoins"] == 0
+
+
+def test_a_player_that_was_cut_off_is_missed_and_comes_back_as_the_same(start, scene, tmp_path, link):
+    play = Play(start, scene, tmp_path, link)
+    player = play.join("ana", "orbiter")
+    play.go_on(60)
+    link.cut(5.0)
+    until(lambda: "ana (client 1) leaves" in play.server.err, what="ana is missed")
+    until(lambda: play.server.err.count("ana joins as client 1") == 2, what="ana is back as client 1")
+    play.go_on(90)
+    (figures,) = play.end(player)
+    assert figures["number"] == 1
+    assert figures["rejoins"] == 0
+    assert figures["final_tick"] > 60 + 5 * 60
+
+
+def test_a_stall_costs_time_and_nothing_else(start, scene, tmp_path, link):
+    play = Play(start, scene, tmp_path, link)
+    player = play.join("ana", "chaser")
+    play.go_on(60)
+    link.stall(1.0)
+    play.go_on(150)
+    assert "leaves" not in play.server.err
+    (figures,) = play.end(player)
+    assert figures["snapshots_taken"] == 0
+    assert figures["hashes_checked"] > 150
+
+
+def test_packets_that_overtake_and_come_twice_change_nothing(start, scene, tmp_path, link):
+    link.change(Conditions(round_trip=0.1, jitter=0.5, loss=0.02, duplicate=0.1, reorder=True, seed=5))
+    play = Play(start, scene, tmp_path, link)
+    player = play.join("ana", "orbiter")
+    play.go_on(150)
+    (figures,) = play.end(player)
+    assert figures["inputs_accepted"] >= 5
+    assert figures["hashes_checked"] > 100
