@@ -1,7 +1,11 @@
 //! The balls, as a structure of arrays. Their order in memory means nothing: see [`order`](crate::order).
 
 use crate::order::Order;
+use crate::team::Team;
 use crate::{Error, Vec2};
+
+/// Balls that one piece of work looks at, at least.
+const GRAIN: usize = 1024;
 
 /// Radius and mass that all balls share; where there is one, hot loops read neither array.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -216,12 +220,11 @@ impl Balls {
 
     /// Id of the first ball whose position or velocity is not finite.
     #[must_use]
-    pub fn first_not_finite(&self) -> Option<u64> {
-        let both = |all: &[Vec2]| {
-            all.iter()
-                .fold(true, |fine, v| fine & v.x.is_finite() & v.y.is_finite())
-        };
-        if both(&self.position) && both(&self.velocity) {
+    pub fn first_not_finite(&self, team: &Team) -> Option<u64> {
+        let chunks = (&self.position[..], &self.velocity[..]);
+        let fine =
+            |(positions, velocities): (&[Vec2], &[Vec2])| are_finite(positions) & are_finite(velocities);
+        if team.share(chunks, GRAIN, &fine, &|left, right| left & right) {
             return None;
         }
         self.by_id()
@@ -244,4 +247,21 @@ fn rearrange<T: Copy>(all: &mut Vec<T>, spare: &mut Vec<T>, order: &[u32]) {
     spare.clear();
     spare.extend(order.iter().map(|&index| all[index as usize]));
     std::mem::swap(all, spare);
+}
+
+/// Whether no number is infinite or NaN: 0 times such a one is NaN, and a sum with NaN is NaN.
+fn are_finite(all: &[Vec2]) -> bool {
+    let mut sums = [Vec2::ZERO; 4];
+    let (fours, rest) = all.as_chunks::<4>();
+    for four in fours {
+        for (sum, &vector) in sums.iter_mut().zip(four) {
+            *sum += vector * 0.0;
+        }
+    }
+    let sum = rest
+        .iter()
+        .map(|&vector| vector * 0.0)
+        .chain(sums)
+        .fold(Vec2::ZERO, |a, b| a + b);
+    sum.x == 0.0 && sum.y == 0.0
 }

@@ -4,6 +4,8 @@ use crate::{Balls, Counters, Rules, Team, Vec2};
 
 /// Balls that one piece of work looks at, at least.
 const GRAIN: usize = 1024;
+/// Balls that are passed over together.
+const GROUP: usize = 16;
 
 /// A wall as a half-plane.
 #[derive(Clone, Copy, Debug)]
@@ -82,11 +84,18 @@ pub(crate) fn reflect(rules: &Rules, balls: &mut Balls, counters: &mut Counters,
     if !rules.walls() {
         return;
     }
-    let hits = match balls.uniform() {
+    counters.wall_hits += match balls.uniform() {
         Some(shape) => team.share(
             (&balls.position[..], &mut balls.velocity[..]),
             GRAIN,
-            &|(positions, velocities)| reflect_all(rules, positions, velocities, |_| shape.radius),
+            &|(positions, velocities)| {
+                let groups = positions.chunks(GROUP).zip(velocities.chunks_mut(GROUP));
+                (groups.filter(|(positions, _)| !inside(rules, positions, shape.radius)))
+                    .map(|(positions, velocities)| {
+                        reflect_all(rules, positions, velocities, |_| shape.radius)
+                    })
+                    .sum()
+            },
             &|left, right| left + right,
         ),
         None => team.share(
@@ -96,7 +105,24 @@ pub(crate) fn reflect(rules: &Rules, balls: &mut Balls, counters: &mut Counters,
             &|left, right| left + right,
         ),
     };
-    counters.wall_hits += hits;
+}
+
+/// Whether none of a group of balls reaches beyond a wall: most groups are nowhere near one.
+#[inline]
+fn inside(rules: &Rules, positions: &[Vec2], radius: f64) -> bool {
+    let (mut low, mut high) = (positions[0], positions[0]);
+    for position in positions {
+        // As comparisons, not minima: these are single instructions.
+        low.x = if position.x < low.x { position.x } else { low.x };
+        low.y = if position.y < low.y { position.y } else { low.y };
+        high.x = if position.x > high.x { position.x } else { high.x };
+        high.y = if position.y > high.y { position.y } else { high.y };
+    }
+    let [left, bottom, right, top] = rules.bounds();
+    (low.x - radius >= left)
+        & (high.x + radius <= right)
+        & (low.y - radius >= bottom)
+        & (high.y + radius <= top)
 }
 
 #[inline]

@@ -22,6 +22,8 @@ pub struct World {
     team: Team,
 }
 
+/// Balls that one piece of work copies, at least.
+const GRAIN: usize = 1024;
 /// Balls that are fewer than this stay in id order: the nearest cache holds them all.
 const FEW_BALLS: usize = 2048;
 /// Ticks after which neighbours have drifted so far apart in memory that arranging them pays.
@@ -104,21 +106,46 @@ impl World {
                 "dt is {dt} s, it must be above 0 and finite"
             )));
         }
-        if inputs.is_empty() {
-            self.last.counters = self.state.counters;
-            self.last.balls.position.clone_from(&self.state.balls.position);
-            self.last.balls.velocity.clone_from(&self.state.balls.velocity);
-        } else {
-            self.last.clone_from(&self.state);
-        }
         let team = self.team.clone();
-        let done = team.enter(|| self.try_step(inputs, dt));
-        if done.is_err() {
-            self.go_back(!inputs.is_empty());
-        } else {
-            self.arrange();
+        team.enter(|| {
+            self.remember(!inputs.is_empty());
+            let done = self.try_step(inputs, dt);
+            match done {
+                Ok(()) => self.arrange(),
+                Err(_) => self.go_back(!inputs.is_empty()),
+            }
+            done
+        })
+    }
+
+    /// Keeps the last whole tick. One without inputs changes nothing but these.
+    fn remember(&mut self, whole: bool) {
+        if whole {
+            self.last.clone_from(&self.state);
+            return;
         }
-        done
+        self.last.counters = self.state.counters;
+        let (from, to) = (&self.state.balls, &mut self.last.balls);
+        to.position.resize(from.len(), Vec2::ZERO);
+        to.velocity.resize(from.len(), Vec2::ZERO);
+        let positions = (&mut to.position[..], &from.position[..]);
+        let velocities = (&mut to.velocity[..], &from.velocity[..]);
+        self.team
+            .each((positions, velocities), GRAIN, &|(positions, velocities)| {
+                positions.0.copy_from_slice(positions.1);
+                velocities.0.copy_from_slice(velocities.1);
+            });
+    }
+
+    /// Back to the last whole tick.
+    fn go_back(&mut self, whole: bool) {
+        if whole {
+            std::mem::swap(&mut self.state, &mut self.last);
+            return;
+        }
+        self.state.counters = self.last.counters;
+        std::mem::swap(&mut self.state.balls.position, &mut self.last.balls.position);
+        std::mem::swap(&mut self.state.balls.velocity, &mut self.last.balls.velocity);
     }
 
     /// Puts neighbours near each other in memory, now and then. No result depends on it.
@@ -135,17 +162,6 @@ impl World {
         if let Some(order) = self.broadphase.order() {
             balls.arrange(order, &mut self.last.balls);
         }
-    }
-
-    /// Back to the last whole tick. One without inputs has changed nothing but these.
-    fn go_back(&mut self, whole: bool) {
-        if whole {
-            std::mem::swap(&mut self.state, &mut self.last);
-            return;
-        }
-        self.state.counters = self.last.counters;
-        std::mem::swap(&mut self.state.balls.position, &mut self.last.balls.position);
-        std::mem::swap(&mut self.state.balls.velocity, &mut self.last.balls.velocity);
     }
 
     fn try_step(&mut self, inputs: &[Input], dt: Option<f64>) -> Result<(), Error> {
@@ -172,7 +188,7 @@ impl World {
                 dt: part,
             })?;
         }
-        if let Some(ball) = state.balls.first_not_finite() {
+        if let Some(ball) = state.balls.first_not_finite(&self.team) {
             return Err(Error::Diverged {
                 tick: state.tick,
                 ball,

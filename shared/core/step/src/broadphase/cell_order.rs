@@ -6,31 +6,11 @@
 
 use std::ops::Range;
 
-use super::sorted::{Sorted, Tag};
-use crate::Vec2;
+use super::sorted::Sorted;
 use crate::team::{Divide, Team};
 
 /// Discs that are passed over together.
 pub(super) const BLOCK: usize = 1024;
-
-/// What the sort knows of a disc.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Located {
-    pub(super) x: f32,
-    pub(super) y: f32,
-    pub(super) cell: u32,
-}
-
-impl Located {
-    #[inline(always)]
-    pub(super) fn at(across: Vec2, cell: u32) -> Located {
-        Located {
-            x: across.x as f32,
-            y: across.y as f32,
-            cell,
-        }
-    }
-}
 
 /// The least and the greatest cell of a block.
 #[derive(Clone, Copy, Debug, Default)]
@@ -40,47 +20,57 @@ pub(super) struct Span {
 }
 
 impl Span {
-    pub(super) fn of(block: &[Located]) -> Span {
+    /// For a sort in one piece, which looks at every block anyway.
+    pub(super) const ALL: Span = Span {
+        least: 0,
+        greatest: u32::MAX,
+    };
+
+    pub(super) fn of(cells: &[u32]) -> Span {
         let (mut least, mut greatest) = (u32::MAX, 0);
-        for located in block {
-            least = least.min(located.cell);
-            greatest = greatest.max(located.cell);
+        for &cell in cells {
+            least = least.min(cell);
+            greatest = greatest.max(cell);
         }
         Span { least, greatest }
     }
 }
 
-/// Discs and the spans of their blocks, to be filled.
-pub(super) struct Blocks<'a> {
-    pub(super) located: &'a mut [Located],
+/// What is to be found out about discs: their cells, the spans of their blocks, their coordinates in cells.
+pub(super) struct Places<'a> {
+    pub(super) cells: &'a mut [u32],
     pub(super) spans: &'a mut [Span],
+    pub(super) across: &'a mut [[f32; 2]],
 }
 
-impl<'a> Blocks<'a> {
-    /// Block by block, with its span.
-    pub(super) fn each(self) -> impl Iterator<Item = (&'a mut [Located], &'a mut Span)> {
-        self.located.chunks_mut(BLOCK).zip(self.spans)
+impl<'a> Places<'a> {
+    /// The same, block by block.
+    pub(super) fn blocks(self) -> impl Iterator<Item = (&'a mut [u32], &'a mut Span, &'a mut [[f32; 2]])> {
+        (self.cells.chunks_mut(BLOCK))
+            .zip(self.spans)
+            .zip(self.across.chunks_mut(BLOCK))
+            .map(|((cells, span), across)| (cells, span, across))
     }
 }
 
-impl Divide for Blocks<'_> {
+impl Divide for Places<'_> {
     fn length(&self) -> usize {
-        self.located.len()
+        self.cells.len()
     }
 
     fn divide(self, at: usize) -> (Self, Self) {
-        let (located, spans) = (
-            self.located.split_at_mut(at),
-            self.spans.split_at_mut(at.div_ceil(BLOCK)),
-        );
+        let (cells, across) = (self.cells.split_at_mut(at), self.across.split_at_mut(at));
+        let spans = self.spans.split_at_mut(at.div_ceil(BLOCK));
         (
-            Blocks {
-                located: located.0,
+            Places {
+                cells: cells.0,
                 spans: spans.0,
+                across: across.0,
             },
-            Blocks {
-                located: located.1,
+            Places {
+                cells: cells.1,
                 spans: spans.1,
+                across: across.1,
             },
         )
     }
@@ -89,17 +79,18 @@ impl Divide for Blocks<'_> {
 /// The discs of the sort.
 #[derive(Clone, Copy)]
 pub(super) struct Input<'a> {
-    pub(super) located: &'a [Located],
+    pub(super) cells: &'a [u32],
     pub(super) spans: &'a [Span],
+    pub(super) across: &'a [[f32; 2]],
     /// In the units of the sorted arrays; empty if all discs share it.
     pub(super) reach: &'a [f32],
 }
 
 impl<'a> Input<'a> {
     /// Blocks, with the index of their first disc, that may have discs in these cells.
-    fn blocks(self, cells: &Range<u32>) -> impl DoubleEndedIterator<Item = (usize, &'a [Located])> {
+    fn blocks(self, cells: &Range<u32>) -> impl DoubleEndedIterator<Item = (usize, &'a [u32])> {
         let cells = cells.clone();
-        (self.spans.iter().zip(self.located.chunks(BLOCK)).enumerate())
+        (self.spans.iter().zip(self.cells.chunks(BLOCK)).enumerate())
             .filter(move |(_, (span, _))| span.least < cells.end && span.greatest >= cells.start)
             .map(|(number, (_, block))| (number * BLOCK, block))
     }
@@ -127,7 +118,7 @@ impl CellOrder {
         offsets: &mut Vec<u32>,
         sorted: &mut Sorted,
     ) {
-        let count = input.located.len();
+        let count = input.cells.len();
         sorted.resize(count, !input.reach.is_empty());
         offsets.resize(cells + 1, 0);
         let parts = team.pieces();
@@ -153,7 +144,8 @@ impl CellOrder {
             x: &mut sorted.x[..count],
             y: &mut sorted.y[..count],
             reach: &mut sorted.reach[..each],
-            tag: &mut sorted.tag[..count],
+            cell: &mut sorted.cell,
+            index: &mut sorted.index,
         };
         team.each(placing, 1, &|work| work.place(input));
         offsets[cells] = count as u32;
@@ -197,9 +189,9 @@ impl Counting<'_> {
             (offsets, rest) = rest.split_at_mut((end - first) as usize);
             offsets.fill(0);
             for (_, block) in input.blocks(&(first..end)) {
-                for located in block {
+                for cell in block {
                     // What is below the first cell wraps round to beyond the last.
-                    if let Some(offset) = offsets.get_mut(located.cell.wrapping_sub(first) as usize) {
+                    if let Some(offset) = offsets.get_mut(cell.wrapping_sub(first) as usize) {
                         *offset += 1;
                     }
                 }
@@ -221,7 +213,8 @@ struct Placing<'a> {
     x: &'a mut [f32],
     y: &'a mut [f32],
     reach: &'a mut [f32],
-    tag: &'a mut [Tag],
+    cell: &'a mut [u32],
+    index: &'a mut [u32],
 }
 
 impl Divide for Placing<'_> {
@@ -236,7 +229,7 @@ impl Divide for Placing<'_> {
         let offsets = self.offsets.split_at_mut(cells);
         let (x, y) = (self.x.split_at_mut(discs), self.y.split_at_mut(discs));
         let reach = self.reach.split_at_mut(discs.min(self.reach.len()));
-        let tag = self.tag.split_at_mut(discs);
+        let (cell, index) = (self.cell.split_at_mut(discs), self.index.split_at_mut(discs));
         (
             Placing {
                 pieces: pieces.0,
@@ -244,7 +237,8 @@ impl Divide for Placing<'_> {
                 x: x.0,
                 y: y.0,
                 reach: reach.0,
-                tag: tag.0,
+                cell: cell.0,
+                index: index.0,
             },
             Placing {
                 pieces: pieces.1,
@@ -252,7 +246,8 @@ impl Divide for Placing<'_> {
                 x: x.1,
                 y: y.1,
                 reach: reach.1,
-                tag: tag.1,
+                cell: cell.1,
+                index: index.1,
             },
         )
     }
@@ -275,18 +270,17 @@ impl Placing<'_> {
         } = self.pieces[0];
         // From the last to the first, so that each offset ends up at the first disc of its cell.
         for (start, block) in input.blocks(&(first..end)).rev() {
-            for (index, located) in (start..start + block.len()).zip(block).rev() {
-                let Some(offset) = self.offsets.get_mut(located.cell.wrapping_sub(first) as usize) else {
+            let across = &input.across[start..start + block.len()];
+            for (at, (&cell, &[x, y])) in block.iter().zip(across).enumerate().rev() {
+                let Some(offset) = self.offsets.get_mut(cell.wrapping_sub(first) as usize) else {
                     continue;
                 };
                 *offset -= 1;
-                let slot = *offset as usize;
-                self.x[slot] = located.x;
-                self.y[slot] = located.y;
-                self.tag[slot] = Tag {
-                    index: index as u32,
-                    cell: located.cell,
-                };
+                let (slot, index) = (*offset as usize, start + at);
+                self.x[slot] = x;
+                self.y[slot] = y;
+                self.cell[slot] = cell;
+                self.index[slot] = index as u32;
                 if !self.reach.is_empty() {
                     self.reach[slot] = input.reach[index];
                 }

@@ -32,7 +32,7 @@ pub(super) struct Level {
     most: Vec2,
     rows: u32,
     /// Numbers from a cell to the one above it.
-    pub(super) stride: usize,
+    pub(super) stride: u32,
     /// The number of this level's first cell.
     pub(super) first: usize,
     /// Discs in it, or more.
@@ -46,7 +46,7 @@ impl Level {
         let most =
             |length: f64| Some(length * inverse - 0.5).filter(|most| (0.0..=MOST_CELLS).contains(most));
         let most = Vec2::new(most(extent.x).unwrap_or(-0.5), most(extent.y).unwrap_or(-0.5));
-        let stride = whole(most.x) as usize + 3;
+        let stride = whole(most.x) + 3;
         Level {
             origin,
             size,
@@ -61,7 +61,7 @@ impl Level {
 
     /// The number behind this level's last cell.
     pub(super) fn end(&self) -> usize {
-        self.first + (self.rows as usize + 1) * self.stride
+        self.first + (self.rows as usize + 1) * self.stride as usize
     }
 
     /// How many cells a place is from the middle of the first, across and up. What is outside the bounds counts to the
@@ -78,7 +78,7 @@ impl Level {
     #[inline(always)]
     pub(super) fn cell(&self, across: Vec2) -> u32 {
         let (column, row) = ((across.x + WHOLE) - WHOLE, (across.y + WHOLE) - WHOLE);
-        whole(row * self.stride as f64 + column + (self.first + 1) as f64)
+        whole(row * f64::from(self.stride) + column + (self.first + 1) as f64)
     }
 
     /// The cell that holds a point.
@@ -116,8 +116,8 @@ impl Level {
     /// The rectangle (left, bottom, right, top) of a cell.
     pub(super) fn rectangle(&self, cell: usize) -> [f64; 4] {
         let (row, column) = (
-            (cell - self.first) / self.stride,
-            (cell - self.first) % self.stride - 1,
+            (cell - self.first) / self.stride as usize,
+            (cell - self.first) % self.stride as usize - 1,
         );
         let left = self.origin.x + column as f64 * self.size;
         let bottom = self.origin.y + row as f64 * self.size;

@@ -8,10 +8,11 @@
 
 use std::ops::Range;
 
-use super::cell_order::{BLOCK, Blocks, CellOrder, Input, Located, Span};
-use super::lanes::{LANES, Scale, all_beyond};
+use super::cell_order::{BLOCK, CellOrder, Input, Places, Span};
+use super::lanes::Scale;
 use super::levels::{Level, Levels};
 use super::relocated::Relocated;
+use super::runs::{Row, some_near};
 use super::sorted::{Probe, Sorted};
 use super::{Broadphase, Discs, Found, Pair, Reach, Settings};
 use crate::{Team, Vec2};
@@ -20,8 +21,10 @@ pub(super) struct LooseQuadtree {
     root: [f64; 4],
     levels: Levels,
     scale: Scale,
-    located: Vec<Located>,
+    cells: Vec<u32>,
     spans: Vec<Span>,
+    /// Coordinates in cells of the finest level.
+    across: Vec<[f32; 2]>,
     reach: Vec<f32>,
     cell_order: CellOrder,
     /// For each cell, where its discs begin in the sorted arrays; the number behind the last cell ends the table.
@@ -30,7 +33,6 @@ pub(super) struct LooseQuadtree {
     count: usize,
     same: Option<f64>,
     relocated: Relocated,
-    order: Vec<u32>,
 }
 
 impl LooseQuadtree {
@@ -39,8 +41,9 @@ impl LooseQuadtree {
             root: settings.root,
             levels: Levels::default(),
             scale: Scale::default(),
-            located: Vec::new(),
+            cells: Vec::new(),
             spans: Vec::new(),
+            across: Vec::new(),
             reach: Vec::new(),
             cell_order: CellOrder::default(),
             offsets: Vec::new(),
@@ -48,46 +51,57 @@ impl LooseQuadtree {
             count: 0,
             same: None,
             relocated: Relocated::default(),
-            order: Vec::new(),
         }
     }
 
     /// Finds the cell of each disc, and its coordinates in cells of the finest level.
     fn locate(&mut self, discs: &Discs<'_>, team: &Team) {
-        self.located.resize(discs.len(), Located::default());
-        self.spans.resize(discs.len().div_ceil(BLOCK), Span::default());
+        let count = discs.len();
+        self.cells.resize(count, 0);
+        self.spans.resize(count.div_ceil(BLOCK), Span::ALL);
+        self.across.resize(count, [0.0; 2]);
         let each = matches!(discs.reach, Reach::Each(_));
-        self.reach.resize(if each { discs.len() } else { 0 }, 0.0);
+        self.reach.resize(if each { count } else { 0 }, 0.0);
         let (levels, scale) = (&self.levels, self.scale);
-        let blocks = Blocks {
-            located: &mut self.located,
+        let finest = *levels.finest();
+        let places = Places {
+            cells: &mut self.cells,
             spans: &mut self.spans,
+            across: &mut self.across,
+        };
+        let span = |cells: &[u32]| {
+            if team.pieces() == 1 {
+                Span::ALL
+            } else {
+                Span::of(cells)
+            }
         };
         match discs.reach {
-            Reach::Same(_) => {
-                let level = levels.finest();
-                team.each((blocks, discs.center), BLOCK, &|(blocks, centers)| {
-                    for ((block, span), centers) in blocks.each().zip(centers.chunks(BLOCK)) {
-                        for (located, &center) in block.iter_mut().zip(centers) {
-                            *located = Located::at(level.across(center), level.cell_at(center));
-                        }
-                        *span = Span::of(block);
+            Reach::Same(_) => team.each((places, discs.center), BLOCK, &|(places, centers)| {
+                for ((cells, covered, narrow), centers) in places.blocks().zip(centers.chunks(BLOCK)) {
+                    for ((cell, narrow), &center) in cells.iter_mut().zip(narrow).zip(centers) {
+                        let across = finest.across(center);
+                        *cell = finest.cell(across);
+                        *narrow = [across.x as f32, across.y as f32];
                     }
-                });
-            }
+                    *covered = span(cells);
+                }
+            }),
             Reach::Each(all) => {
-                let whole = (blocks, discs.center, all, &mut self.reach[..]);
-                team.each(whole, BLOCK, &|(blocks, centers, all, narrow)| {
-                    for (narrow, &reach) in narrow.iter_mut().zip(all) {
+                let whole = (places, discs.center, all, &mut self.reach[..]);
+                team.each(whole, BLOCK, &|(places, centers, all, reaches)| {
+                    for (narrow, &reach) in reaches.iter_mut().zip(all) {
                         *narrow = scale.probed(reach);
                     }
-                    let finest = levels.finest();
                     let discs = centers.chunks(BLOCK).zip(all.chunks(BLOCK));
-                    for ((block, span), (centers, all)) in blocks.each().zip(discs) {
-                        for ((located, &center), &reach) in block.iter_mut().zip(centers).zip(all) {
-                            *located = Located::at(finest.across(center), levels.of(reach).cell_at(center));
+                    for ((cells, covered, narrow), (centers, all)) in places.blocks().zip(discs) {
+                        let discs = centers.iter().zip(all);
+                        for ((cell, narrow), (&center, &reach)) in cells.iter_mut().zip(narrow).zip(discs) {
+                            let across = finest.across(center);
+                            *cell = levels.of(reach).cell_at(center);
+                            *narrow = [across.x as f32, across.y as f32];
                         }
-                        *span = Span::of(block);
+                        *covered = span(cells);
                     }
                 });
             }
@@ -104,29 +118,28 @@ impl LooseQuadtree {
 
     /// Pairs inside one level. A disc is tested against what follows it in its cell and the cell to the right, and
     /// against the three cells above: two runs of the sorted arrays.
-    #[inline(never)] // Alone, its loop keeps what it needs in registers.
     fn pairs_in_level<const EACH: bool>(&self, level: &Level, slots: Range<usize>, found: &mut Vec<Pair>) {
-        let sum = self
-            .same
-            .map_or(0.0, |reach| self.scale.probing(reach) + self.scale.probed(reach));
-        let margin = self.scale.probing(0.0);
-        let (offsets, stride) = (&self.offsets[..], level.stride);
-        for slot in slots {
-            let cell = self.sorted.tag[slot].cell as usize;
-            let beside = slot + 1..offsets[cell + 2] as usize;
-            let above = offsets[cell + stride - 1] as usize..offsets[cell + stride + 2] as usize;
-            let reach = if EACH {
-                self.sorted.reach[slot] + margin
-            } else {
-                sum
-            };
-            let probe = Probe::<EACH>::of(&self.sorted, slot, reach);
-            // One branch for the usual case: at most a few candidates, none of which is near. The lanes behind a run
-            // belong to cells further off, where next to nothing is near.
-            if !all_beyond(probe.beyond(beside.start), probe.beyond(above.start))
-                || beside.len().max(above.len()) > LANES
-            {
-                report::<EACH>(&self.sorted, slot, reach, [beside, above], found);
+        let row = Row {
+            offsets: &self.offsets,
+            stride: level.stride,
+        };
+        let reach = match self.same {
+            Some(reach) => self.scale.probing(reach) + self.scale.probed(reach),
+            None => self.scale.probing(0.0),
+        };
+        // First a bit for each disc that may be near another, then a look at those: a branch per disc would cost more,
+        // as no processor foresees which balls touch.
+        for begin in slots.clone().step_by(u64::BITS as usize) {
+            let slots = begin..slots.end.min(begin + u64::BITS as usize);
+            let mut some = some_near::<EACH>(&self.sorted, &row, reach, slots);
+            while some != 0 {
+                let slot = begin + some.trailing_zeros() as usize;
+                some &= some - 1;
+                let (beside, above) = row.runs(slot, self.sorted.cell[slot]);
+                let index = self.sorted.index[slot];
+                Probe::<EACH>::of(&self.sorted, slot, reach).each_of_two(beside, above, |other| {
+                    found.push(pair(index, self.sorted.index[other]));
+                });
             }
         }
     }
@@ -135,12 +148,12 @@ impl LooseQuadtree {
     fn pairs_across(&self, wider: &Level, slots: Range<usize>, discs: &Discs<'_>, found: &mut Vec<Pair>) {
         let margin = self.scale.probing(0.0);
         for slot in slots {
-            let index = self.sorted.tag[slot].index;
+            let index = self.sorted.index[slot];
             let (center, reach) = (discs.center[index as usize], discs.reach.of(index as usize));
-            let probe = Probe::<true>::of(&self.sorted, slot, self.sorted.reach[slot] + margin);
+            let probe = Probe::<true>::of(&self.sorted, slot, margin);
             for run in wider.runs(center, reach) {
                 let run = self.offsets[run.start] as usize..self.offsets[run.end] as usize;
-                probe.each(run, |other| found.push(pair(index, self.sorted.tag[other].index)));
+                probe.each(run, |other| found.push(pair(index, self.sorted.index[other])));
             }
         }
     }
@@ -172,22 +185,6 @@ fn pair(first: u32, second: u32) -> Pair {
     (first.min(second), first.max(second))
 }
 
-/// Adds the pairs of a sorted disc with those of two runs.
-#[inline(never)]
-fn report<const EACH: bool>(
-    sorted: &Sorted,
-    slot: usize,
-    reach: f32,
-    runs: [Range<usize>; 2],
-    found: &mut Vec<Pair>,
-) {
-    let probe = Probe::<EACH>::of(sorted, slot, reach);
-    let index = sorted.tag[slot].index;
-    for run in runs {
-        probe.each(run, |other| found.push(pair(index, sorted.tag[other].index)));
-    }
-}
-
 impl Broadphase for LooseQuadtree {
     fn build(&mut self, discs: &Discs<'_>, team: &Team) {
         self.relocated.clear();
@@ -200,8 +197,9 @@ impl Broadphase for LooseQuadtree {
         self.scale = self.levels.finest().scale();
         self.locate(discs, team);
         let input = Input {
-            located: &self.located,
+            cells: &self.cells,
             spans: &self.spans,
+            across: &self.across,
             reach: &self.reach,
         };
         let cells = self.levels.cells();
@@ -243,7 +241,7 @@ impl Broadphase for LooseQuadtree {
             for run in level.runs(center, reach) {
                 let (start, end) = (self.offsets[run.start] as usize, self.offsets[run.end] as usize);
                 let mut show = |slot: usize| {
-                    let index = self.sorted.tag[slot].index;
+                    let index = self.sorted.index[slot];
                     if !self.relocated.holds(index) {
                         found.push(index);
                     }
@@ -278,11 +276,8 @@ impl Broadphase for LooseQuadtree {
         });
     }
 
-    fn order(&mut self) -> Option<&[u32]> {
-        self.order.clear();
-        self.order
-            .extend(self.sorted.tag[..self.count].iter().map(|tag| tag.index));
-        Some(&self.order)
+    fn order(&self) -> Option<&[u32]> {
+        Some(&self.sorted.index)
     }
 
     fn nodes(&self) -> Vec<[f64; 4]> {

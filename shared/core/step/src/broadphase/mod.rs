@@ -13,6 +13,7 @@ mod levels;
 mod loose_quadtree;
 mod quadtree;
 mod relocated;
+mod runs;
 mod sorted;
 
 pub use discs::{Discs, Reach};
@@ -41,7 +42,7 @@ pub trait Broadphase: Send + Sync {
     fn query(&self, center: Vec2, reach: f64, found: &mut Vec<u32>);
 
     /// The indices of the discs of the last build, neighbours near each other; None if it knows no such order.
-    fn order(&mut self) -> Option<&[u32]> {
+    fn order(&self) -> Option<&[u32]> {
         None
     }
 

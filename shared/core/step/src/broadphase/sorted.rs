@@ -4,12 +4,6 @@ use std::ops::Range;
 
 use super::lanes::{LANES, beyond, lanes_at, lanes_of, near};
 
-#[derive(Clone, Copy, Default)]
-pub(super) struct Tag {
-    pub(super) index: u32,
-    pub(super) cell: u32,
-}
-
 /// The discs, sorted by cell; the arrays go on for a few lanes behind the last disc.
 #[derive(Default)]
 pub(super) struct Sorted {
@@ -17,7 +11,10 @@ pub(super) struct Sorted {
     pub(super) y: Vec<f32>,
     /// Unused if all discs share their reach.
     pub(super) reach: Vec<f32>,
-    pub(super) tag: Vec<Tag>,
+    /// The cell of each.
+    pub(super) cell: Vec<u32>,
+    /// Which disc it is.
+    pub(super) index: Vec<u32>,
 }
 
 impl Sorted {
@@ -25,7 +22,8 @@ impl Sorted {
         self.x.resize(count + LANES, 0.0);
         self.y.resize(count + LANES, 0.0);
         self.reach.resize(if with_reach { count + LANES } else { 0 }, 0.0);
-        self.tag.resize(count + LANES, Tag::default());
+        self.cell.resize(count, 0);
+        self.index.resize(count, 0);
     }
 }
 
@@ -38,14 +36,14 @@ pub(super) struct Probe<'a, const EACH: bool> {
 }
 
 impl<'a, const EACH: bool> Probe<'a, EACH> {
-    /// One of the sorted discs.
+    /// One of the sorted discs. `reach` is its own if all share it, else what is added to its own.
     #[inline(always)]
     pub(super) fn of(sorted: &'a Sorted, slot: usize, reach: f32) -> Probe<'a, EACH> {
         Probe {
             sorted,
             x: sorted.x[slot],
             y: sorted.y[slot],
-            reach,
+            reach: if EACH { sorted.reach[slot] + reach } else { reach },
         }
     }
 
@@ -66,15 +64,38 @@ impl<'a, const EACH: bool> Probe<'a, EACH> {
         )
     }
 
+    /// Shows the slots of all near discs in two runs.
+    #[inline(always)]
+    pub(super) fn each_of_two(&self, first: Range<usize>, second: Range<usize>, mut show: impl FnMut(usize)) {
+        if first.len().max(second.len()) > LANES {
+            self.each(first, &mut show);
+            self.each(second, &mut show);
+            return;
+        }
+        let mut hits = (near(self.beyond(first.start)) & lanes_of(first.len()))
+            | (near(self.beyond(second.start)) & lanes_of(second.len())) << LANES;
+        while hits != 0 {
+            let lane = hits.trailing_zeros() as usize;
+            hits &= hits - 1;
+            show(if lane < LANES {
+                first.start + lane
+            } else {
+                second.start + lane - LANES
+            });
+        }
+    }
+
     /// Shows the slots of all near discs in a run.
-    #[inline]
+    #[inline(never)]
     pub(super) fn each(&self, run: Range<usize>, mut show: impl FnMut(usize)) {
-        for start in run.clone().step_by(LANES) {
+        let mut start = run.start;
+        while start < run.end {
             let mut hits = near(self.beyond(start)) & lanes_of(run.end - start);
             while hits != 0 {
                 show(start + hits.trailing_zeros() as usize);
                 hits &= hits - 1;
             }
+            start += LANES;
         }
     }
 }
