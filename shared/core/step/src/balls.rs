@@ -179,6 +179,17 @@ impl Balls {
         self.order.is_by_id()
     }
 
+    /// Two indices, that of the lower id first.
+    #[inline]
+    pub(crate) fn in_id_order(&self, first: usize, second: usize) -> (usize, usize) {
+        let swap = if self.is_by_id() {
+            first > second
+        } else {
+            self.id[first] > self.id[second]
+        };
+        if swap { (second, first) } else { (first, second) }
+    }
+
     /// Where the ball with this id is stored.
     #[must_use]
     pub fn index_of(&self, id: u64) -> Option<usize> {

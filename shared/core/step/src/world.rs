@@ -151,7 +151,7 @@ impl World {
     /// Puts neighbours near each other in memory, now and then. No result depends on it.
     fn arrange(&mut self) {
         let balls = &mut self.state.balls;
-        if balls.len() < FEW_BALLS || !self.contacts.takes_any_order() {
+        if balls.len() < FEW_BALLS {
             return;
         }
         if self.until_arranged > 0 {

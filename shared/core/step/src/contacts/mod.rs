@@ -51,11 +51,6 @@ pub trait Contacts: Send + Sync {
     /// # Errors
     /// [`Error::EventLimit`]; the state is then to be thrown away.
     fn advance(&mut self, substep: &mut Substep<'_>) -> Result<(), Error>;
-
-    /// Whether it does without memory order being id order.
-    fn takes_any_order(&self) -> bool {
-        true
-    }
 }
 
 /// A registered treatment.

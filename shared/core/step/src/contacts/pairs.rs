@@ -198,10 +198,5 @@ fn discs_of(balls: &Balls) -> Discs<'_> {
 /// The same pair with the lower id first.
 #[inline]
 fn by_id(balls: &Balls, (first, second): Pair) -> (usize, usize) {
-    let (first, second) = (first as usize, second as usize);
-    if balls.is_by_id() || balls.id[first] < balls.id[second] {
-        (first, second)
-    } else {
-        (second, first)
-    }
+    balls.in_id_order(first as usize, second as usize)
 }

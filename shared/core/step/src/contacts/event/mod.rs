@@ -23,7 +23,7 @@ use crate::{Error, Vec2};
 
 use contact::Law;
 use paths::{Motion, Paths};
-use queue::{Event, Partner, Queue};
+use queue::{Event, Queue};
 
 #[derive(Default)]
 pub(super) struct EventDriven {
@@ -42,10 +42,6 @@ impl Contacts for EventDriven {
         self.run(substep)?;
         self.end(substep);
         Ok(())
-    }
-
-    fn takes_any_order(&self) -> bool {
-        false
     }
 }
 
@@ -88,10 +84,11 @@ impl EventDriven {
         substep.broadphase.build(&discs, substep.team);
         substep.broadphase.pairs(&discs, substep.team, &mut self.found);
         for (first, second) in self.found.iter() {
-            self.paths.note_touch(balls, first as usize, second as usize);
-            if let Some(time) = predict::pair(&self.paths, balls, first as usize, second as usize) {
-                self.queue
-                    .push(Event::new(time, first, Partner::ball(second), &self.paths.hits));
+            let (first, second) = balls.in_id_order(first as usize, second as usize);
+            self.paths.note_touch(balls, first, second);
+            if let Some(time) = predict::pair(&self.paths, balls, first, second) {
+                let event = Event::of_pair(time, first, second, balls, &self.paths.hits);
+                self.queue.push(event);
             }
         }
         if let Some(walls) = walls {
@@ -151,14 +148,10 @@ impl EventDriven {
             if other == index {
                 continue;
             }
-            let (first, second) = (index.min(other), index.max(other));
+            let (first, second) = balls.in_id_order(index, other);
             if let Some(time) = predict::pair(&self.paths, balls, first, second) {
-                self.queue.push(Event::new(
-                    time,
-                    first as u32,
-                    Partner::ball(second as u32),
-                    &self.paths.hits,
-                ));
+                let event = Event::of_pair(time, first, second, balls, &self.paths.hits);
+                self.queue.push(event);
             }
         }
         if let Some(walls) = walls
@@ -197,7 +190,7 @@ impl EventDriven {
 fn predict_walls(paths: &Paths, balls: &crate::Balls, walls: &Walls, index: usize, queue: &mut Queue) {
     for number in 0..4 {
         if let Some(time) = predict::wall(paths, balls, index, &walls.wall(number)) {
-            queue.push(Event::new(time, index as u32, Partner::wall(number), &paths.hits));
+            queue.push(Event::of_wall(time, index, number, balls, &paths.hits));
         }
     }
 }

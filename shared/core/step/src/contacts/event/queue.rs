@@ -1,25 +1,20 @@
 //! Predicted collisions, the earliest first.
 //!
-//! A ball's count of hits stands in each of its events: one that was predicted before its last hit is void.
+//! A ball's count of hits stands in each of its events: one that was predicted before its last hit is void. Equal times
+//! are ordered by ids, so that neither memory order nor the order of prediction can show.
 
-use std::cmp::Ordering;
+use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
+use crate::Balls;
+
 /// What a ball meets: another ball, or one of the four walls, which come behind all balls at equal times.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Partner(u32);
 
 const FIRST_WALL: u32 = u32::MAX - 3;
 
 impl Partner {
-    pub(super) fn ball(index: u32) -> Partner {
-        Partner(index)
-    }
-
-    pub(super) fn wall(number: u32) -> Partner {
-        Partner(FIRST_WALL + number)
-    }
-
     pub(super) fn as_ball(self) -> Option<usize> {
         (self.0 < FIRST_WALL).then_some(self.0 as usize)
     }
@@ -32,19 +27,34 @@ impl Partner {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Event {
     pub(super) time: f64,
+    /// Index of the ball; of the one with the lower id, if there are two.
     pub(super) first: u32,
     pub(super) partner: Partner,
     hits: (u32, u32),
+    /// The lower id, and the higher one or the wall behind all ids.
+    ids: (u64, u64),
 }
 
 impl Event {
-    pub(super) fn new(time: f64, first: u32, partner: Partner, hits: &[u32]) -> Event {
-        let of_partner = partner.as_ball().map_or(0, |second| hits[second]);
+    /// Two balls meet; `first` has the lower id.
+    pub(super) fn of_pair(time: f64, first: usize, second: usize, balls: &Balls, hits: &[u32]) -> Event {
         Event {
             time,
-            first,
-            partner,
-            hits: (hits[first as usize], of_partner),
+            first: first as u32,
+            partner: Partner(second as u32),
+            hits: (hits[first], hits[second]),
+            ids: (balls.id[first], balls.id[second]),
+        }
+    }
+
+    /// A ball meets a wall.
+    pub(super) fn of_wall(time: f64, ball: usize, wall: u32, balls: &Balls, hits: &[u32]) -> Event {
+        Event {
+            time,
+            first: ball as u32,
+            partner: Partner(FIRST_WALL + wall),
+            hits: (hits[ball], 0),
+            ids: (balls.id[ball], u64::MAX - 3 + u64::from(wall)),
         }
     }
 
@@ -54,14 +64,10 @@ impl Event {
     }
 }
 
-// The greatest of a heap comes first: the order is turned round.
 impl Ord for Event {
     fn cmp(&self, other: &Event) -> Ordering {
-        let key = |event: &Event| (event.first, event.partner, event.hits);
-        other
-            .time
-            .total_cmp(&self.time)
-            .then_with(|| key(other).cmp(&key(self)))
+        let key = |event: &Event| (event.ids, event.hits);
+        (self.time.total_cmp(&other.time)).then_with(|| key(self).cmp(&key(other)))
     }
 }
 
@@ -79,39 +85,48 @@ impl PartialEq for Event {
 
 impl Eq for Event {}
 
-/// A heap whose first events are taken in all at once, which costs less than one by one.
+/// What is predicted at the start is sorted once, which costs less than a heap; what hits add later goes into one.
 #[derive(Default)]
 pub(super) struct Queue {
-    unsettled: Vec<Event>,
-    heap: BinaryHeap<Event>,
+    /// The latest first.
+    sorted: Vec<Event>,
+    later: BinaryHeap<Reverse<Event>>,
     settled: bool,
 }
 
 impl Queue {
     pub(super) fn clear(&mut self) {
-        self.unsettled = std::mem::take(&mut self.heap).into_vec();
-        self.unsettled.clear();
+        self.sorted.clear();
+        self.later.clear();
         self.settled = false;
     }
 
     pub(super) fn push(&mut self, event: Event) {
         if self.settled {
-            self.heap.push(event);
+            self.later.push(Reverse(event));
         } else {
-            self.unsettled.push(event);
+            self.sorted.push(event);
         }
     }
 
     /// Puts all events so far in order; none can be taken before.
     pub(super) fn settle(&mut self) {
-        self.heap = BinaryHeap::from(std::mem::take(&mut self.unsettled));
+        self.sorted.sort_unstable_by(|first, second| second.cmp(first));
         self.settled = true;
     }
 
     /// Takes the earliest event that still stands.
     pub(super) fn next(&mut self, hits: &[u32]) -> Option<Event> {
         loop {
-            let event = self.heap.pop()?;
+            let later_first = match (self.sorted.last(), self.later.peek()) {
+                (Some(sorted), Some(Reverse(later))) => later < sorted,
+                (sorted, _) => sorted.is_none(),
+            };
+            let event = if later_first {
+                self.later.pop()?.0
+            } else {
+                self.sorted.pop()?
+            };
             if !event.is_void(hits) {
                 return Some(event);
             }
