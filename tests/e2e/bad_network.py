@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -24,23 +24,21 @@ class Play:
         scene: Path,
         folder: Path,
         link: Conditioner,
-        protocols: Sequence[str] = ("tcp",),
+        protocols: str = "tcp",
     ) -> None:
         self._start = start
         self._link = link
-        self._connect = [
-            word for name in protocols for word in ("--connect", f"{name}/{link.client_address}")
-        ]
+        self._connect = f"{protocols}/{link.client_address}"
         self._recording = folder / "bad.kuglice"
-        listen = [word for name in protocols for word in ("--listen", f"{name}/{link.server_address}")]
-        arguments = ("server", scene, *listen, "--insecure", "--record", self._recording, "--json")
+        listen = ("--listen", f"{protocols}/{link.server_address}", "--insecure")
+        arguments = ("server", scene, *listen, "--record", self._recording, "--json")
         self.server = start(*arguments, prefix=link.server_prefix)
 
     def join(self, name: str, bot: str | None = None) -> Command:
         """A client that has joined."""
         acts = () if bot is None else ("--bot", bot)
         client = self._start(
-            *("client", *self._connect, "--name", name, *acts, "--wait", 30, "--json"),
+            *("client", "--connect", self._connect, "--name", name, *acts, "--wait", 30, "--json"),
             prefix=self._link.client_prefix,
         )
         until(lambda: "joined world" in client.err, what=f"{name} joins")

@@ -11,7 +11,7 @@ import typer
 
 from kuglice.cli.rows import print_rows
 from kuglice.lab import bench as benches
-from kuglice.lab.cli import capacity
+from kuglice.lab.cli import capacity, network
 from kuglice.lab.cli.progress import progress
 from kuglice.lab.machine import this_machine
 from kuglice.lab.results import Results, write
@@ -25,6 +25,7 @@ def register(app: typer.Typer) -> None:
     group = typer.Typer(invoke_without_command=True)
     group.callback()(bench)
     capacity.register(group)
+    network.register(group)
     app.add_typer(group, name="bench")
 
 

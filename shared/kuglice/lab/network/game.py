@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
@@ -17,13 +16,15 @@ from kuglice.processes import CommandProcess
 from kuglice.replay import Replay
 from kuglice.world import World
 
-__all__ = ["Game", "Outcome", "endpoints"]
+__all__ = ["Game", "Outcome"]
 
 START_SECONDS = 20.0
 JOIN_SECONDS = 60.0
 END_SECONDS = 20.0
 POLL_SECONDS = 0.02
 RECORDING = "game.kuglice"
+SERVER_KINDS = frozenset({"join", "leave"})
+"""Inputs that the server writes itself: no client acts by them."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +39,7 @@ class Outcome:
 class Game:
     """Served and joined when entered; ended, whatever happens, when left. Raises KugliceError.
 
-    `protocols` of the link: tcp alone, or tcp and udp. `folder` takes what the processes write.
+    `protocols` between server and clients: tcp, or tcp+udp. `folder` takes what the processes write.
     """
 
     def __init__(
@@ -47,7 +48,7 @@ class Game:
         subject: Subject,
         folder: Path,
         *,
-        protocols: Sequence[str] = ("tcp",),
+        protocols: str = "tcp",
         snapshot_every: int | None = None,
     ) -> None:
         self.subject = subject
@@ -76,6 +77,11 @@ class Game:
         self._end()
 
     @property
+    def acting(self) -> list[str]:
+        """Names of the clients that are bots."""
+        return self.names[: len(self.subject.bots)]
+
+    @property
     def names(self) -> list[str]:
         """Of the clients: those that act first."""
         bots = [f"{bot}-{number}" for number, bot in enumerate(self.subject.bots)]
@@ -100,16 +106,22 @@ class Game:
         clients = {name: json.loads(self._summary(name).read_text()) for name in self.names}
         return Outcome(json.loads(self._server.stdout()), clients, self._equal(clients))
 
-    def study(self, name: str) -> Path:
-        """Where the client `name` wrote what it did and showed."""
-        return self._folder / f"{name}.study.jsonl"
+    def recorded_ticks(self) -> int:
+        """How far the server's recording is: about a tick behind the server."""
+        return len(Replay.load(self._folder / RECORDING))
+
+    def first_input_after(self, tick: int) -> int | None:
+        """The first tick from there on by which each acting client has acted; None if one never did."""
+        first: dict[int, int] = {}
+        replay = Replay.load(self._folder / RECORDING)
+        for number in range(tick, len(replay)):
+            for one in replay.inputs(number):
+                if one.kind not in SERVER_KINDS:
+                    first.setdefault(one.client, number)
+        return max(first.values()) if len(first) == len(self.subject.bots) else None
 
     def _serve(self, scene: Path) -> None:
-        listen = [
-            word
-            for endpoint in endpoints(self._link.server_address, self._protocols)
-            for word in ("--listen", endpoint)
-        ]
+        listen = ["--listen", f"{self._protocols}/{self._link.server_address}"]
         every = [] if self._snapshot_every is None else ["--snapshot-every", self._snapshot_every]
         self._server = CommandProcess(
             self._folder,
@@ -121,11 +133,7 @@ class Game:
         self._server.wait_for_words("balls on", START_SECONDS)
 
     def _join(self) -> None:
-        connect = [
-            word
-            for endpoint in endpoints(self._link.client_address, self._protocols)
-            for word in ("--connect", endpoint)
-        ]
+        connect = ["--connect", f"{self._protocols}/{self._link.client_address}"]
         bots = dict(zip(self.names, self.subject.bots, strict=False))
         for name in self.names:
             self._clients[name] = CommandProcess(
@@ -175,8 +183,3 @@ class Game:
             client["agreed"] and found.get(client["final_tick"]) == client["final_hash"]
             for client in clients.values()
         )
-
-
-def endpoints(address: str, protocols: Sequence[str]) -> list[str]:
-    """Of a host and port, one per protocol."""
-    return [f"{protocol}/{address}" for protocol in protocols]

@@ -1,0 +1,145 @@
+"""One cell of the table: a subject, conditions and protocols; a game that is played, and one that is cut."""
+
+from __future__ import annotations
+
+import statistics
+import tempfile
+import time
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from kuglice.lab.network.conditioner import Conditioner, open_link
+from kuglice.lab.network.conditions import Conditions
+from kuglice.lab.network.game import Game, Outcome
+from kuglice.lab.network.subjects import Subject
+from kuglice.lab.rows import Row, Value
+
+__all__ = ["Cell"]
+
+SETTLE_SECONDS = 1.0
+CUT_SECONDS = 5.0
+AFTER_CUT_SECONDS = 6.0
+
+
+@dataclass(frozen=True)
+class Cell:
+    """`protocols`: tcp or tcp+udp. `seconds`: of play. `snapshot_every`: ticks, None for the default."""
+
+    subject: Subject
+    conditions: Conditions
+    protocols: str
+    seconds: float
+    link: str = "auto"
+    cut: bool = True
+    snapshot_every: int | None = None
+
+    @property
+    def label(self) -> str:
+        """For a progress bar."""
+        return f"{self.subject.name}, {self.conditions}, {self.protocols}"
+
+    def measure(self) -> list[Row]:
+        """Its row; per client where that makes sense. Raises KugliceError.
+
+        `recovery_seconds`: from the return of the link to the tick in which the last of the acting clients acts
+        again in the server's world (empty: not within AFTER_CUT_SECONDS).
+        """
+        with tempfile.TemporaryDirectory() as folder, open_link(self.conditions, self.link) as link:
+            row: dict[str, Value] = {
+                "scene": self.subject.name,
+                "link": link.kind,
+                "protocols": self.protocols,
+                "round_trip_ms": 1000.0 * self.conditions.round_trip,
+                "jitter_percent": 100.0 * self.conditions.jitter,
+                "loss_percent": 100.0 * self.conditions.loss,
+                "clients": self.subject.clients,
+                "seconds": self.seconds,
+            }
+            if self.snapshot_every is not None:
+                row["snapshot_every"] = self.snapshot_every
+            row |= self._played(link, Path(folder) / "played")
+            if self.cut:
+                row |= self._cut(link, Path(folder) / "cut")
+        return [row]
+
+    def _game(self, link: Conditioner, folder: Path) -> Game:
+        return Game(link, self.subject, folder, protocols=self.protocols, snapshot_every=self.snapshot_every)
+
+    def _played(self, link: Conditioner, folder: Path) -> dict[str, Value]:
+        with self._game(link, folder) as game:
+            game.play(SETTLE_SECONDS)
+            before, began = link.counts(), time.monotonic()
+            game.play(self.seconds)
+            after, spent = link.counts(), time.monotonic() - began
+            outcome = game.finish()
+            figures = _figures(game, outcome)
+        for way in ("up", "down"):
+            # Of the payload alone a proxy knows nothing more than the clients do.
+            wire = _of_way(after, way) - _of_way(before, way)
+            figures[f"wire_{way}"] = wire / spent / self.subject.clients if link.kind == "tunnel" else ""
+        return figures
+
+    def _cut(self, link: Conditioner, folder: Path) -> dict[str, Value]:
+        with self._game(link, folder) as game:
+            game.play(SETTLE_SECONDS)
+            link.cut(CUT_SECONDS)
+            game.play(CUT_SECONDS)
+            returned = game.recorded_ticks()
+            game.play(AFTER_CUT_SECONDS)
+            outcome = game.finish()
+            acted = game.first_input_after(returned)
+        rate = self.subject.scene.tick_rate
+        return {
+            "recovery_seconds": "" if acted is None else (acted - returned) / rate,
+            "desyncs_after_cut": sum(_desyncs(client) for client in outcome.clients.values()),
+            "hashes_equal_after_cut": int(outcome.hashes_equal),
+        }
+
+
+def _figures(game: Game, outcome: Outcome) -> dict[str, Value]:
+    clients = outcome.clients
+    acting = [clients[name] for name in game.acting]
+    looking = [client for name, client in clients.items() if name not in game.acting]
+    accepted = sum(client["inputs_accepted"] for client in acting)
+    late = sum(client["inputs_late"] for client in acting)
+    return {
+        "inputs": accepted,
+        "late_per_1000": 1000.0 * late / accepted if accepted else "",
+        "lead_ticks": _mean(client["lead_ticks"] for client in acting),
+        "rollbacks_per_second": _mean(client["rollbacks"] / client["seconds"] for client in acting),
+        "rollback_depth": _mean(_depth(client) for client in acting),
+        "rollback_deepest": max(client["deepest_rollback"] for client in acting),
+        "correction_worst_radii": max(client["worst_correction_radii"] for client in acting),
+        "onlooker_rollbacks_per_second": _mean(client["rollbacks"] / client["seconds"] for client in looking),
+        "onlooker_correction_worst_radii": max(
+            (client["worst_correction_radii"] for client in looking), default=""
+        ),
+        "payload_up": _mean(client["bytes_per_second_sent"] for client in acting),
+        "payload_down": _mean(client["bytes_per_second_received"] for client in clients.values()),
+        "payload_down_ticks": _mean(client["bytes_per_second_ticks"] for client in clients.values()),
+        "join_seconds": max(client["joined_after_seconds"] for client in clients.values()),
+        "desyncs": sum(_desyncs(client) for client in clients.values()),
+        "hashes_equal": int(outcome.hashes_equal),
+        "server_late_ticks": outcome.server["late_ticks"],
+    }
+
+
+def _depth(client: Mapping[str, Any]) -> float:
+    """Ticks run again per rollback."""
+    return client["ticks_rerun"] / client["rollbacks"] if client["rollbacks"] else 0.0
+
+
+def _desyncs(client: Mapping[str, Any]) -> int:
+    count: int = client["hash_mismatches"] + client["snapshot_mismatches"]
+    return count
+
+
+def _of_way(counts: Mapping[str, int], way: str) -> int:
+    return sum(count for name, count in counts.items() if name.startswith(way) and name.endswith("bytes"))
+
+
+def _mean(values: Iterable[float]) -> Value:
+    listed = list(values)
+    return statistics.fmean(listed) if listed else ""
