@@ -16,10 +16,10 @@ mod queue;
 mod rest;
 
 use super::{Contacts, EVENT_LIMIT, Substep};
-use crate::broadphase::{Discs, Found, Reach};
+use crate::broadphase::{Discs, Found, Pair, Reach};
 use crate::force::{Acceleration, Body, Field};
 use crate::walls::Walls;
-use crate::{Error, Vec2};
+use crate::{Balls, Error, Vec2};
 
 use contact::Law;
 use paths::{Motion, Paths};
@@ -29,6 +29,8 @@ use queue::{Event, Queue};
 pub(super) struct EventDriven {
     paths: Paths,
     queue: Queue,
+    /// What is predicted at the start, by pieces of the work.
+    predicted: Vec<Vec<Event>>,
     found: Found,
     near: Vec<u32>,
     /// Balls that the last event gave new paths.
@@ -70,36 +72,40 @@ impl EventDriven {
                 *velocity += *acceleration * (0.5 * substep.dt);
             }
         }
-        self.paths.sweep(balls);
+        self.paths.sweep(balls, substep.team);
     }
 
     fn predict_all(&mut self, substep: &mut Substep<'_>) {
         let balls = &*substep.balls;
         let walls = Walls::of(substep.rules);
-        self.queue.clear();
         let discs = Discs {
             center: &self.paths.center,
             reach: Reach::Each(&self.paths.reach),
         };
         substep.broadphase.build(&discs, substep.team);
         substep.broadphase.pairs(&discs, substep.team, &mut self.found);
-        for (first, second) in self.found.iter() {
-            let (first, second) = balls.in_id_order(first as usize, second as usize);
-            self.paths.note_touch(balls, first, second);
-            if let Some(time) = predict::pair(&self.paths, balls, first, second) {
-                let event = Event::of_pair(time, first, second, balls, &self.paths.hits);
-                self.queue.push(event);
+        if self.paths.notes_touches() {
+            for (first, second) in self.found.iter() {
+                self.paths.note_touch(balls, first as usize, second as usize);
             }
         }
-        if let Some(walls) = walls {
-            for index in 0..balls.len() {
-                let (center, reach) = (self.paths.center[index], self.paths.reach[index]);
-                if !walls.hold(center, reach) {
-                    predict_walls(&self.paths, balls, &walls, index, &mut self.queue);
+        let (paths, lists) = (&self.paths, self.found.lists());
+        self.predicted.resize_with(lists.len(), Vec::new);
+        let pieces = (&mut self.predicted[..], lists, 0..lists.len());
+        let (count, parts) = (balls.len(), lists.len());
+        substep.team.each(pieces, 1, &|(predicted, lists, parts_here)| {
+            for ((events, list), part) in predicted.iter_mut().zip(lists).zip(parts_here) {
+                predict_pairs(paths, balls, list, events);
+                if let Some(walls) = &walls {
+                    for index in count * part / parts..count * (part + 1) / parts {
+                        if !walls.hold(paths.center[index], paths.reach[index]) {
+                            predict_walls(paths, balls, walls, index, |event| events.push(event));
+                        }
+                    }
                 }
             }
-        }
-        self.queue.settle();
+        });
+        self.queue.begin(&mut self.predicted);
     }
 
     fn run(&mut self, substep: &mut Substep<'_>) -> Result<(), Error> {
@@ -157,13 +163,14 @@ impl EventDriven {
         if let Some(walls) = walls
             && !walls.hold(center, reach)
         {
-            predict_walls(&self.paths, balls, walls, index, &mut self.queue);
+            let queue = &mut self.queue;
+            predict_walls(&self.paths, balls, walls, index, |event| queue.push(event));
         }
     }
 
     fn end(&mut self, substep: &mut Substep<'_>) {
         let balls = &mut *substep.balls;
-        self.paths.end(balls);
+        self.paths.end(balls, substep.team);
         if let (Motion::Kicked, Field::Sum(field)) = (self.paths.motion, substep.field) {
             let (time, half) = (substep.time + substep.dt, 0.5 * substep.dt);
             for index in 0..balls.len() {
@@ -187,10 +194,19 @@ impl EventDriven {
     }
 }
 
-fn predict_walls(paths: &Paths, balls: &crate::Balls, walls: &Walls, index: usize, queue: &mut Queue) {
+fn predict_walls(paths: &Paths, balls: &Balls, walls: &Walls, index: usize, mut add: impl FnMut(Event)) {
     for number in 0..4 {
         if let Some(time) = predict::wall(paths, balls, index, &walls.wall(number)) {
-            queue.push(Event::of_wall(time, index, number, balls, &paths.hits));
+            add(Event::of_wall(time, index, number, balls, &paths.hits));
+        }
+    }
+}
+
+fn predict_pairs(paths: &Paths, balls: &Balls, pairs: &[Pair], events: &mut Vec<Event>) {
+    for &(first, second) in pairs {
+        let (first, second) = balls.in_id_order(first as usize, second as usize);
+        if let Some(time) = predict::pair(paths, balls, first, second) {
+            events.push(Event::of_pair(time, first, second, balls, &paths.hits));
         }
     }
 }

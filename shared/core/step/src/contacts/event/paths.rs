@@ -6,7 +6,10 @@
 
 use super::rest::{Support, Supports};
 use crate::force::Body;
-use crate::{Balls, Vec2};
+use crate::{Balls, Team, Vec2};
+
+/// Balls that one piece of work moves, at least.
+const GRAIN: usize = 1024;
 
 /// The part of an acceleration below which what contacts leave of it is rounding.
 const ROUNDING: f64 = 1e-9;
@@ -111,6 +114,11 @@ impl Paths {
         }
     }
 
+    /// Whether it is of interest which balls touch at the start of the substep.
+    pub(super) fn notes_touches(&self) -> bool {
+        self.margin != 0.0
+    }
+
     /// Notes which of two balls, at the start of the substep, touch.
     pub(super) fn note_touch(&mut self, balls: &Balls, first: usize, second: usize) {
         if self.margin == 0.0 {
@@ -141,7 +149,11 @@ impl Paths {
     /// Place and velocity along the path at a time of the substep.
     #[inline]
     pub(super) fn at(&self, balls: &Balls, index: usize, time: f64) -> (Vec2, Vec2) {
-        let (position, velocity) = (balls.position[index], balls.velocity[index]);
+        self.along(balls.position[index], balls.velocity[index], index, time)
+    }
+
+    #[inline]
+    fn along(&self, position: Vec2, velocity: Vec2, index: usize, time: f64) -> (Vec2, Vec2) {
         let s = time - self.since[index];
         if self.motion == Motion::Curved {
             let a = self.acceleration[index];
@@ -242,41 +254,47 @@ impl Paths {
         self.hits[index] = self.hits[index].wrapping_add(1);
     }
 
-    /// Discs around all paths.
-    pub(super) fn sweep(&mut self, balls: &Balls) {
-        let (length, motion, margin) = (self.length, self.motion, 0.5 * self.margin);
-        self.center.clear();
-        self.reach.clear();
-        if motion != Motion::Curved {
-            // In one go over the arrays: at this point every path is straight and whole.
-            let half = 0.5 * length;
-            self.center.extend(
-                balls
-                    .position
-                    .iter()
-                    .zip(&balls.velocity)
-                    .map(|(&p, &v)| p + v * half),
-            );
-            match balls.uniform() {
-                Some(shape) => self.reach.extend(
-                    balls
-                        .velocity
-                        .iter()
-                        .map(|v| widen(shape.radius, v.length() * half + margin)),
-                ),
-                None => {
-                    let sized = balls.radius.iter().zip(&balls.velocity);
-                    self.reach
-                        .extend(sized.map(|(&radius, v)| widen(radius, v.length() * half + margin)));
+    /// Discs around all paths, as they are at the start of the substep.
+    pub(super) fn sweep(&mut self, balls: &Balls, team: &Team) {
+        let (count, uniform) = (balls.len(), balls.uniform());
+        let (half, margin) = (0.5 * self.length, 0.5 * self.margin);
+        let (mut center, mut reach) = (std::mem::take(&mut self.center), std::mem::take(&mut self.reach));
+        center.resize(count, Vec2::ZERO);
+        reach.resize(count, 0.0);
+        let paths = &*self;
+        let whole = (&mut center[..], &mut reach[..], 0..count);
+        if paths.motion == Motion::Curved {
+            team.each(whole, GRAIN, &|(centers, reaches, indices)| {
+                for ((center, reach), index) in centers.iter_mut().zip(reaches).zip(indices) {
+                    (*center, *reach) = paths.disc(balls, index);
                 }
-            }
-            return;
+            });
+        } else {
+            // At this point every path is straight and whole.
+            team.each(whole, GRAIN, &|(centers, reaches, indices)| {
+                let moving = balls.position[indices.clone()]
+                    .iter()
+                    .zip(&balls.velocity[indices.clone()]);
+                for (center, (&position, &velocity)) in centers.iter_mut().zip(moving) {
+                    *center = position + velocity * half;
+                }
+                let velocities = &balls.velocity[indices.clone()];
+                match uniform {
+                    Some(shape) => {
+                        for (reach, velocity) in reaches.iter_mut().zip(velocities) {
+                            *reach = widen(shape.radius, velocity.length() * half + margin);
+                        }
+                    }
+                    None => {
+                        let sized = balls.radius[indices].iter().zip(velocities);
+                        for (reach, (&radius, velocity)) in reaches.iter_mut().zip(sized) {
+                            *reach = widen(radius, velocity.length() * half + margin);
+                        }
+                    }
+                }
+            });
         }
-        for index in 0..balls.len() {
-            let (center, reach) = self.disc(balls, index);
-            self.center.push(center);
-            self.reach.push(reach);
-        }
+        (self.center, self.reach) = (center, reach);
     }
 
     /// The disc around what is left of one path.
@@ -297,10 +315,14 @@ impl Paths {
     }
 
     /// Moves all balls to the end of the substep.
-    pub(super) fn end(&self, balls: &mut Balls) {
-        for index in 0..balls.len() {
-            (balls.position[index], balls.velocity[index]) = self.at(balls, index, self.length);
-        }
+    pub(super) fn end(&self, balls: &mut Balls, team: &Team) {
+        let indices = 0..balls.len();
+        let whole = (&mut balls.position[..], &mut balls.velocity[..], indices);
+        team.each(whole, GRAIN, &|(positions, velocities, indices)| {
+            for ((position, velocity), index) in positions.iter_mut().zip(velocities).zip(indices) {
+                (*position, *velocity) = self.along(*position, *velocity, index, self.length);
+            }
+        });
     }
 }
 

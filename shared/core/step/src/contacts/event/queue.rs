@@ -91,28 +91,21 @@ pub(super) struct Queue {
     /// The latest first.
     sorted: Vec<Event>,
     later: BinaryHeap<Reverse<Event>>,
-    settled: bool,
 }
 
 impl Queue {
-    pub(super) fn clear(&mut self) {
+    /// Begins with the events of these lists, which it empties.
+    pub(super) fn begin(&mut self, predicted: &mut [Vec<Event>]) {
         self.sorted.clear();
         self.later.clear();
-        self.settled = false;
+        for events in predicted {
+            self.sorted.append(events);
+        }
+        self.sorted.sort_unstable_by(|first, second| second.cmp(first));
     }
 
     pub(super) fn push(&mut self, event: Event) {
-        if self.settled {
-            self.later.push(Reverse(event));
-        } else {
-            self.sorted.push(event);
-        }
-    }
-
-    /// Puts all events so far in order; none can be taken before.
-    pub(super) fn settle(&mut self) {
-        self.sorted.sort_unstable_by(|first, second| second.cmp(first));
-        self.settled = true;
+        self.later.push(Reverse(event));
     }
 
     /// Takes the earliest event that still stands.
