@@ -48,8 +48,8 @@ class ServerSettings:
     """How a world is served; none of it changes its bits.
 
     `rate`: ticks per second of wall clock (None: the scene's). `snapshot_every`: ticks between published
-    snapshots (None: a second's worth). `insecure`: listen on addresses that others can reach, although there
-    are no accounts and no encryption yet.
+    snapshots (None: a second's worth). `threads`: how many share the work of a step. `insecure`: listen on
+    addresses that others can reach, although there are no accounts and no encryption yet.
     """
 
     world: str
@@ -58,6 +58,7 @@ class ServerSettings:
     rate: float | None = None
     snapshot_every: int | None = None
     record: Path | None = None
+    threads: int = 1
     insecure: bool = False
 
     def __post_init__(self) -> None:
@@ -76,7 +77,7 @@ class Server:
 
     def __init__(self, scene: Scene, settings: ServerSettings) -> None:
         self.settings = settings
-        self.world = World(scene)
+        self.world = World(scene, threads=settings.threads)
         # Grows from run to run, so that a restarted server never says an epoch again.
         self.epoch = time.time_ns()
         self.rate = settings.rate if settings.rate is not None else scene.tick_rate

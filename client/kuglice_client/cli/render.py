@@ -12,6 +12,7 @@ from typing import Annotated
 import typer
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
+from kuglice import _core
 from kuglice.cli.figures import print_figures
 from kuglice.cli.logs import STDERR
 from kuglice.cli.stop import stop_on_signals
@@ -39,6 +40,10 @@ def render(  # noqa: PLR0917 - options
         ),
     ],
     seconds: Annotated[float, typer.Option(help="How much of the scene, in its own time.")] = 10.0,
+    threads: Annotated[
+        int,
+        typer.Option(help="Threads that share the work of a step; same bits.", min=1, max=_core.MOST_THREADS),
+    ] = 1,
     fps: Annotated[float, typer.Option(help="Frames per second.")] = 30.0,
     speed: Annotated[float, typer.Option(help="Seconds of the scene per second of the film.")] = 1.0,
     style: Annotated[str, typer.Option(help=f"How balls look: {', '.join(STYLES)}.")] = "discs",
@@ -62,7 +67,7 @@ def render(  # noqa: PLR0917 - options
     """
     if not 0 <= seconds <= 86_400:
         raise PictureError(f"seconds {seconds}: must be within 0 and 86400")
-    world = World(find(scene))
+    world = World(find(scene), threads=threads)
     ticks = round(seconds * world.scene.tick_rate)
     stop = stop_on_signals()
     started = time.monotonic()

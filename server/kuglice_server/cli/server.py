@@ -11,7 +11,7 @@ from typing import Annotated, Any
 import typer
 from rich.status import Status
 
-from kuglice import scenes
+from kuglice import _core, scenes
 from kuglice.cli.figures import print_figures
 from kuglice.cli.logs import STDERR, log_to_stderr
 from kuglice.cli.stop import stop_on_signals
@@ -46,6 +46,10 @@ def server(
         int | None, typer.Option(help="Ticks between published snapshots. [default: a second's worth]")
     ] = None,
     record: Annotated[Path | None, typer.Option(help="Write a replay file.")] = None,
+    threads: Annotated[
+        int,
+        typer.Option(help="Threads that share the work of a step; same bits.", min=1, max=_core.MOST_THREADS),
+    ] = 1,
     seconds: Annotated[
         float | None, typer.Option(min=0.0, help="Stop after this long. [default: on SIGINT or SIGTERM]")
     ] = None,
@@ -73,6 +77,7 @@ def server(
         rate=rate,
         snapshot_every=snapshot_every,
         record=record,
+        threads=threads,
         insecure=insecure,
     )
     with Server(scenes.find(scene), settings) as running:
