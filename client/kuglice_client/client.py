@@ -6,14 +6,14 @@ import logging
 import math
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Self
 
 from kuglice import World
 from kuglice.errors import JoinError, ProtocolError
 from kuglice.inputs import Input
-from kuglice.protocol import PART_BYTES, Assembly, Keys, Tick, check_name
+from kuglice.protocol import DEFAULT_ENDPOINT, PART_BYTES, Ack, Assembly, Keys, Tick, check_name
 from kuglice_client.bots import BOTS, Sight
 from kuglice_client.clock import Clock
 from kuglice_client.follow import Follower
@@ -51,7 +51,7 @@ class ClientSettings:
     which it says True are thrown away on arrival, to see them heal.
     """
 
-    connect: tuple[str, ...] = ("tcp/127.0.0.1:7447",)
+    connect: tuple[str, ...] = (DEFAULT_ENDPOINT,)
     world: str | None = None
     name: str | None = None
     bot: str | None = None
@@ -131,10 +131,10 @@ class Client:
         # Who has not even confirmed what is known has no time for guesses.
         if self._confirm(now):
             self._predict(math.floor(target))
-        if self.outbox is not None and self.settings.name is not None:
-            message = self.outbox.message(now)
+        if self.outbox is not None:
+            message = self.outbox.message(now, self.confirmed.tick)
             if message is not None:
-                self.link.send(self.settings.name, message)
+                self.link.send(message)
         return max(0.0, min(1.0, target - self.prediction.world.tick))
 
     def run(
@@ -206,6 +206,7 @@ class Client:
                 epoch=joined.epoch,
                 number=joined.number,
                 sequence=joined.sequence,
+                tick_seconds=1 / about.rate,
                 resend_seconds=max(0.1, 2 * joined.round_trip),
             )
         )
@@ -247,15 +248,20 @@ class Client:
     def _heard(self, message: Tick, now: float) -> None:
         self._heard_at, self._stalled = now, False
         self.clock.heard(message.end, now)
-        for ack in message.acks:
-            pending = None if self.outbox is None else self.outbox.resolve(ack)
+        if self.outbox is not None:
+            self._answered(message.outcomes(self.outbox.number), self.outbox)
+        self.follower.take(message)
+
+    def _answered(self, outcomes: Iterable[Ack], outbox: Outbox) -> None:
+        for ack in outcomes:
+            pending = outbox.resolve(ack)
             if pending is None:
                 continue
             self.prediction.settle(pending.given, pending.tick, ack.tick)
-            self.clock.reported(ack.early)
+            if ack.early is not None:
+                self.clock.reported(ack.early)
             if ack.refused is not None:
                 log.warning("refused: %s", ack.refused)
-        self.follower.take(message)
 
     def _confirm(self, now: float) -> bool:
         """Step through what is known, or, if that is much, through some of it. Whether that was all."""

@@ -20,10 +20,10 @@ KEPT_TICKS = 1_200
 
 
 class Confirmed(NamedTuple):
-    """A tick of the stream that was stepped, and the hash of state(tick + 1) here."""
+    """A tick of the stream that was stepped, and the hash of state(tick + 1) here, if the stream tells one."""
 
     entry: StretchedTick
-    state_hash: int
+    state_hash: int | None
 
 
 class Follower:
@@ -47,11 +47,13 @@ class Follower:
                 self.missed_messages += newest - 1 - self._newest
             told_before, self._newest = self._newest, max(self._newest, newest)
         for entry in stretch.ticks():
-            if (
-                entry.tick < self.world.tick
-                or entry.tick in self._buffer
-                or len(self._buffer) >= BUFFERED_TICKS
-            ):
+            if entry.tick < self.world.tick or len(self._buffer) >= BUFFERED_TICKS:
+                continue
+            known = self._buffer.get(entry.tick)
+            if known is not None:
+                # A repeat tells no hash; should the message that does come after it, nothing else is new in it.
+                if known.state_hash is None and known.inputs == entry.inputs:
+                    self._buffer[entry.tick] = entry
                 continue
             self._buffer[entry.tick] = entry
             if from_history:
@@ -87,7 +89,8 @@ class Follower:
             self._kept[entry.tick] = entry
             while len(self._kept) > KEPT_TICKS:
                 self._kept.popitem(last=False)
-            yield Confirmed(entry, self.world.state_hash)
+            # Hashing costs a pass over the balls: no use where there is nothing to compare with.
+            yield Confirmed(entry, None if entry.state_hash is None else self.world.state_hash)
 
     def rerun(self, world: World, until: int) -> bool:
         """Bring an older state up to state `until` by the ticks kept since; whether they reach that far."""

@@ -22,6 +22,7 @@ from kuglice.protocol import (
     close_session,
     decode,
     encode,
+    open_links,
     open_session,
 )
 from kuglice_client.ask import Asked
@@ -36,6 +37,7 @@ Samples = zenoh.Subscriber[zenoh.handlers.Handler[zenoh.Sample]]
 
 TICK_RING = 1024
 SNAPSHOT_RING = 64
+RETRY_SECONDS = 0.05
 
 
 class Link:
@@ -62,6 +64,15 @@ class Link:
 
     def show(self, name: str) -> None:
         """Let the server know that the client `name` is here, for as long as this process lives."""
+        self._input = self.session.declare_publisher(
+            self._keys.input(name),
+            congestion_control=zenoh.CongestionControl.DROP,
+            priority=zenoh.Priority.INTERACTIVE_HIGH,
+            express=True,
+            reliability=zenoh.Reliability.BEST_EFFORT,
+            allowed_destination=zenoh.Locality.REMOTE,
+        )
+        self._declared.append(self._input)
         self._declared.append(self.session.liveliness().declare_token(self._keys.client(name)))
 
     def make_room(self, parts: int) -> None:
@@ -86,18 +97,16 @@ class Link:
         """Ask the server; the answer comes later."""
         return Asked(self.session, key, request, traffic=self.traffic)
 
-    def send(self, name: str, message: ClientInputs) -> None:
-        """Put inputs on one's own key; what is lost is sent again until acknowledged."""
+    def send(self, message: ClientInputs) -> None:
+        """Put inputs on the key that `show` named; what is lost is sent again until acknowledged."""
         data = encode(message)
         self.traffic.sent["inputs"] += len(data)
-        self.session.put(
-            self._keys.input(name),
-            data,
-            congestion_control=zenoh.CongestionControl.DROP,
-            priority=zenoh.Priority.INTERACTIVE_HIGH,
-            express=True,
-            allowed_destination=zenoh.Locality.REMOTE,
-        )
+        self._input.put(data)
+
+    @property
+    def kinds(self) -> list[str]:
+        """What this end is connected by: `tcp`, and `udp` where ticks and inputs go as datagrams."""
+        return open_links(self.session)
 
     def close(self, timeout: float) -> bool:
         """Leave. False if Zenoh did not finish within `timeout` seconds."""
@@ -127,5 +136,6 @@ def _connected(connect: tuple[str, ...], deadline: float, stop: threading.Event)
         try:
             return open_session(client_configuration(connect, timeout=1.0))
         except ProtocolError as error:
-            if time.monotonic() > deadline or stop.is_set():
+            # Where datagrams are wanted too, an attempt ends at once if nobody is there.
+            if time.monotonic() > deadline or stop.wait(RETRY_SECONDS):
                 raise JoinError(str(error)) from error

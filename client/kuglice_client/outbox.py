@@ -1,15 +1,23 @@
-"""Own inputs, from the moment of acting until the server says what became of them."""
+"""Own inputs, from the moment of acting until the server says what became of them.
+
+Every message carries all that is unacknowledged. It goes out with a new input and again in each of the next ticks, so
+that one that is lost is made up for before its tick has come; after that only when an answer is overdue.
+"""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-from kuglice.inputs import Input, to_message
+from kuglice.inputs import Input
 from kuglice.protocol import MAX_INPUTS, Ack, ClientInputs, SentInput
 
 __all__ = ["Outbox", "Pending"]
 
 MAX_PENDING = 256
+COPIES = 3
+"""Messages in a row that carry a new input."""
+REPORT_SECONDS = 0.1
+"""After this long without anything else to say, the server is told what was heard of its stream."""
 
 
 class Pending(NamedTuple):
@@ -20,16 +28,24 @@ class Pending(NamedTuple):
 
 
 class Outbox:
-    """Sequence numbers go on from `sequence`, so that one who returns is not taken for an echo of itself."""
+    """Sequence numbers go on from `sequence`, so that one who returns is not taken for an echo of itself.
 
-    def __init__(self, *, epoch: int, number: int, sequence: int, resend_seconds: float) -> None:
+    `tick_seconds`: from one copy of a message to the next. `resend_seconds`: after which an answer is overdue.
+    """
+
+    def __init__(
+        self, *, epoch: int, number: int, sequence: int, tick_seconds: float, resend_seconds: float
+    ) -> None:
         self.number = number
         self._epoch = epoch
         self._sequence = sequence
+        self._tick_seconds = tick_seconds
         self._resend_seconds = resend_seconds
         self._pending: dict[int, Pending] = {}
-        self._unsent = False
+        self._new = False
+        self._copies = 0
         self._sent_at = 0.0
+        self._reported = 0
         self.accepted = 0
         self.refused = 0
         self.late = 0
@@ -44,7 +60,7 @@ class Outbox:
         self._sequence += 1
         mine: Input = given.model_copy(update={"client": self.number, "sequence": self._sequence})
         self._pending[self._sequence] = Pending(tick, mine)
-        self._unsent = True
+        self._new, self._copies = True, COPIES
         return mine
 
     def resolve(self, ack: Ack) -> Pending | None:
@@ -58,18 +74,20 @@ class Outbox:
             self.refused += 1
         else:
             self.accepted += 1
-            self.late += ack.early < 0
+            self.late += ack.tick > pending.tick if ack.early is None else ack.early < 0
         return pending
 
-    def message(self, now: float) -> ClientInputs | None:
-        """Everything unacknowledged, if some of it is new or was sent long enough ago; None otherwise."""
-        if not self._pending or not (self._unsent or now - self._sent_at >= self._resend_seconds):
+    def message(self, now: float, heard: int) -> ClientInputs | None:
+        """What is to be sent now, if anything is; `heard` is the tick that we miss."""
+        since = now - self._sent_at
+        again = self._resend_seconds if not self._copies else self._tick_seconds
+        acting = bool(self._pending) and (self._new or since >= again)
+        reporting = heard > self._reported and since >= REPORT_SECONDS
+        if not (acting or reporting):
             return None
-        self._unsent = False
+        self._new = False
+        self._copies = max(0, self._copies - 1)
         self._sent_at = now
-        sent = []
-        for sequence, pending in list(self._pending.items())[:MAX_INPUTS]:
-            act = to_message(pending.given)
-            del act["client"], act["sequence"]
-            sent.append(SentInput(sequence=sequence, tick=pending.tick, act=act))
-        return ClientInputs(epoch=self._epoch, inputs=sent)
+        self._reported = heard
+        sent = [SentInput(tick, given) for tick, given in list(self._pending.values())[:MAX_INPUTS]]
+        return ClientInputs(epoch=self._epoch, heard=heard, inputs=sent)

@@ -48,7 +48,8 @@ class Reconciler:
 
     def confirmed(self, step: Confirmed) -> None:
         """A tick was stepped: compare its hash, keep the state if a snapshot of it will come."""
-        self.hashes_checked += 1
+        if step.entry.state_hash is not None:
+            self.hashes_checked += 1
         if step.state_hash != step.entry.state_hash:
             self.hash_mismatches += 1
             if self._wrong is None:

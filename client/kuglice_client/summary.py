@@ -48,6 +48,7 @@ def summarise(client: Client, *, seconds: float) -> dict[str, Any]:
         "number": client.joined.number,
         "world": client.joined.about.world,
         "epoch": client.joined.epoch,
+        "links": "+".join(client.link.kinds),
         "seconds": seconds,
         "joined_after_seconds": client.joined_after,
         "final_tick": client.confirmed.tick,

@@ -18,7 +18,6 @@ from kuglice.protocol import (
     Refusal,
     SnapshotRequest,
     Status,
-    Stretch,
     TickRange,
     decode,
     encode,
@@ -95,16 +94,12 @@ class Answers:
         request = decode(payload.to_bytes(), TickRange, SnapshotRequest)
         if request.epoch != self._epoch:
             raise ProtocolError(f"epoch {request.epoch}: this server runs epoch {self._epoch}")
+        about = self._about()
         if isinstance(request, TickRange):
             ticks = self._history.ticks(request.first, request.end)
             if not ticks:
                 raise ProtocolError(f"ticks {request.first} to {request.end - 1}: not kept, or not yet run")
-            stretch = History(
-                epoch=self._epoch,
-                first=ticks[0].tick,
-                inputs=[entry.inputs for entry in ticks],
-                hashes=Stretch.pack_hashes([entry.state_hash for entry in ticks]),
-            )
+            stretch = History.of(self._epoch, ticks, hash_every=about.hash_every)
             yield from split(encode(stretch), of="history", epoch=self._epoch, tick=ticks[0].tick)
         elif isinstance(request, SnapshotRequest):
             kept = self._history.snapshot(request.at)

@@ -2,10 +2,17 @@
 
 Every input has a defined answer:
 
-- in time: acts in the tick it asks for; late: acts in the next tick, and the ack says how late it was;
-- too early (beyond `horizon` ticks), beyond the scene's limits, malformed: refused, with the reason;
-- duplicate: acknowledged as before, never applied twice; older than what is remembered: refused;
-- from nobody who is here, or meant for another epoch: counted, not answered, since nobody would hear it.
+- in time: acts in the tick it asks for; late: acts in the next tick. Either way it is acknowledged by the tick message
+  in which it acts, which also says how early or late it came; one that acts much later is told at once as well;
+- reordered: one client's inputs act in the order of their sequence numbers, which is kept by taking a number only
+  once and never after a higher one: it is refused, since its turn is over;
+- too early (beyond `horizon` ticks), or beyond the scene's limits: refused, with the reason;
+- duplicate: never applied twice; acknowledged again once the tick messages that told of it are over; older than what
+  is remembered: refused;
+- more than `limits.per_tick` in one tick: the rest waits for the next, in order;
+- malformed: a message that cannot be read is refused as a whole, with the reason, under no sequence number;
+- a flood: beyond MESSAGES_PER_TICK messages a tick, counted and not read; what was lost is sent again;
+- foreign (from nobody who is here), or meant for another epoch: counted, not answered, since nobody would hear it.
 """
 
 from __future__ import annotations
@@ -14,7 +21,7 @@ from collections import Counter, deque
 
 from kuglice import Scene, World
 from kuglice.errors import InputError, ProtocolError
-from kuglice.inputs import Input, check, from_message
+from kuglice.inputs import Input, check
 from kuglice.protocol import Ack, ClientInputs, Keys, SentInput, decode
 from kuglice_server.players import Player, Players
 
@@ -25,6 +32,8 @@ MESSAGES_PER_TICK = 16
 """Messages of one client that are read per tick; what is lost is sent again until acknowledged."""
 MAX_ACKS = 256
 """Outcomes per tick message; a client that does not hear of one asks again."""
+SOON = 8
+"""Ticks that a client waits for an input to act before it would like to know whether it came at all."""
 MAX_REASON = 160
 """Characters; keeps a tick message within one batch."""
 MAX_PER_TICK = 600
@@ -47,6 +56,8 @@ class Intake:
         self._read: Counter[str] = Counter()
         self._new_acks: list[Ack] = []
         self._acks: deque[tuple[int, list[Ack]]] = deque()
+        self._acting: dict[int, list[Ack]] = {}
+        self._told_before = 0
 
     def receive(self, key: str, payload: bytes, *, world: World) -> None:
         """One message from the wire; `world` is the state that its tick will begin with. Raises nothing."""
@@ -72,6 +83,7 @@ class Intake:
         if message.epoch != self._epoch:
             self._counters["other epoch"] += 1
             return
+        player.heard = max(player.heard or 0, min(message.heard, world.tick))
         for sent in message.inputs:
             self._take(player, sent, world)
 
@@ -84,22 +96,24 @@ class Intake:
         return inputs
 
     def acks(self, tick: int, *, repeat: int) -> list[Ack]:
-        """Outcomes to publish with `tick`: the new ones, and those of the last `repeat` ticks again."""
+        """Outcomes to publish with `tick`: of what acts in it, new ones, and those of the last `repeat` ticks again."""
         if self._new_acks:
             self._acks.append((tick, self._new_acks))
             self._new_acks = []
         while self._acks and self._acks[0][0] <= tick - repeat:
             self._acks.popleft()
-        return [ack for _, acks in self._acks for ack in acks][-MAX_ACKS:]
+        self._told_before = tick - repeat
+        acting = self._acting.pop(tick, [])
+        return [ack for _, acks in self._acks for ack in acks][-MAX_ACKS:] + acting
 
     def _take(self, player: Player, sent: SentInput, world: World) -> None:
         early = sent.tick - world.tick
-        if sent.sequence <= player.sequence:
-            self._again(player, sent, early)
+        if sent.given.sequence <= player.sequence:
+            self._again(player, sent.given.sequence, world.tick, early)
             return
-        player.sequence = sent.sequence
+        player.sequence = sent.given.sequence
         try:
-            one = from_message({**sent.act, "client": player.number, "sequence": sent.sequence})
+            one = sent.given.model_copy(update={"client": player.number})
             if one.kind not in CLIENT_KINDS:
                 raise InputError(
                     f"{one.kind} {one.sequence} of client {one.client}: only the server decides on that"
@@ -109,9 +123,9 @@ class Intake:
         except InputError as error:
             player.refused += 1
             self._counters["refused"] += 1
-            self._answer(
-                player, sent.sequence, Ack(player.number, sent.sequence, None, early, _reason(error))
-            )
+            ack = Ack(player.number, sent.given.sequence, None, early, _reason(error))
+            player.remember(sent.given.sequence, ack)
+            self._new_acks.append(ack)
             return
         self._scheduled.setdefault(tick, []).append(one)
         self._used[player.number, tick] += 1
@@ -121,7 +135,11 @@ class Intake:
         if early < 0:
             player.late += 1
             self._counters["late"] += 1
-        self._answer(player, sent.sequence, Ack(player.number, sent.sequence, tick, early, None))
+        ack = Ack(player.number, one.sequence, tick, early, None)
+        player.remember(one.sequence, ack)
+        self._acting.setdefault(tick, []).append(ack)
+        if tick > world.tick + SOON:
+            self._new_acks.append(ack)
 
     def _tick_for(self, player: Player, tick: int, now: int) -> int:
         # Inputs of one client act in the order of their sequence numbers, so never before an earlier one.
@@ -135,18 +153,17 @@ class Intake:
             raise InputError(f"tick {tick}: at most {self._horizon} ticks after {now}, the next one, allowed")
         return tick
 
-    def _again(self, player: Player, sent: SentInput, early: int) -> None:
+    def _again(self, player: Player, sequence: int, now: int, early: int) -> None:
         self._counters["duplicate"] += 1
-        known = player.outcomes.get(sent.sequence)
+        known = player.outcomes.get(sequence)
         if known is None:
-            reason = f"sequence {sent.sequence}: {player.sequence} came before; its outcome is not remembered"
-            known = Ack(player.number, sent.sequence, None, early, reason)
+            reason = f"sequence {sequence}: {player.sequence} came before; its outcome is not remembered"
+            known = Ack(player.number, sequence, None, early, reason)
+        if known.tick is not None and self._told_before < known.tick <= now + SOON:
+            # The stream is telling of it right now, or about to.
+            return
         if known not in self._new_acks and not any(known in acks for _, acks in self._acks):
             self._new_acks.append(known)
-
-    def _answer(self, player: Player, sequence: int, ack: Ack) -> None:
-        player.remember(sequence, ack)
-        self._new_acks.append(ack)
 
 
 def _reason(error: Exception) -> str:

@@ -24,7 +24,10 @@ REMEMBERED_OUTCOMES = 256
 
 @dataclass
 class Player:
-    """A name and what is known of it. It keeps number and sequence when it leaves and comes back."""
+    """A name and what is known of it. It keeps number and sequence when it leaves and comes back.
+
+    `heard`: the first tick that it misses, as far as it has said.
+    """
 
     name: str
     number: int
@@ -34,6 +37,7 @@ class Player:
     late: int = 0
     refused: int = 0
     last_tick: int = 0
+    heard: int | None = None
     outcomes: OrderedDict[int, Ack] = field(default_factory=OrderedDict)
 
     def remember(self, sequence: int, ack: Ack) -> None:
@@ -61,6 +65,11 @@ class Players:
         return sorted(
             (player for player in self._by_name.values() if player.present), key=lambda one: one.number
         )
+
+    @property
+    def heard(self) -> list[int]:
+        """The first tick that each of those who are here misses, where they have said it."""
+        return [player.heard for player in self.present if player.heard is not None]
 
     @property
     def deserted(self) -> bool:
@@ -140,6 +149,7 @@ class Players:
             self._forget()
         self._by_name.move_to_end(name)
         known.present = True
+        known.heard = None
         log.info("%s joins as client %d", name, number)
         return joined
 

@@ -1,28 +1,41 @@
-"""What the server says unasked: every tick, and the full state now and then. Nothing here ever blocks."""
+"""What the server says unasked: every tick, and the full state now and then. Nothing here ever blocks.
+
+Ticks go best-effort, over a link of datagrams to those who have one, else like everything else. Snapshots go over the
+stream: they come in many parts, all of which are needed.
+"""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import zenoh
 
-from kuglice.protocol import PART_BYTES, Ack, Keys, Stretch, StretchedTick, Tick, encode, split
+from kuglice.protocol import PART_BYTES, Ack, Keys, StretchedTick, Tick, encode, split
+from kuglice_server.repeats import Repeats
 
 __all__ = ["Publisher"]
+
+ENVELOPE_BYTES = 25
+"""Of a tick message that has nothing to say but its hash."""
+ACK_BYTES = 24
 
 
 class Publisher:
     """Puts ticks and snapshots; what a congested link cannot take is dropped, and heals at the client."""
 
-    def __init__(self, session: zenoh.Session, keys: Keys, *, epoch: int, counters: Counter[str]) -> None:
+    def __init__(
+        self, session: zenoh.Session, keys: Keys, *, epoch: int, rate: float, counters: Counter[str]
+    ) -> None:
         self._epoch = epoch
         self._counters = counters
+        self._repeats = Repeats(rate)
         self._tick = session.declare_publisher(
             keys.tick,
             congestion_control=zenoh.CongestionControl.DROP,
             priority=zenoh.Priority.INTERACTIVE_HIGH,
             express=True,
+            reliability=zenoh.Reliability.BEST_EFFORT,
         )
         self._snapshot = session.declare_publisher(
             keys.snapshot,
@@ -35,22 +48,21 @@ class Publisher:
         """For closing."""
         return (self._tick, self._snapshot)
 
-    def tick(self, recent: Sequence[StretchedTick], acks: list[Ack]) -> None:
-        """Publish the last of `recent`, and as many of those before it as fit into one batch."""
-        begin = len(recent) - 1
-        room = PART_BYTES - len(recent[begin].inputs) - sum(32 + len(ack.refused or "") for ack in acks)
-        while begin > 0 and len(recent[begin - 1].inputs) <= room:
-            begin -= 1
-            room -= len(recent[begin].inputs)
-        told = recent[begin:]
-        message = Tick(
-            epoch=self._epoch,
-            first=told[0].tick,
-            inputs=[entry.inputs for entry in told],
-            hashes=Stretch.pack_hashes([entry.state_hash for entry in told]),
-            acks=acks,
-        )
-        self._put(self._tick, encode(message))
+    def tick(self, recent: Sequence[StretchedTick], acks: Sequence[Ack], heard: Iterable[int] = ()) -> None:
+        """Publish the last of `recent`, and as many of those before it as are worth it (repeats.py).
+
+        `heard`: for each client the first tick that it misses.
+        """
+        data = encode(self.message(recent, acks, heard))
+        self._repeats.spent(len(data))
+        self._put(self._tick, data)
+
+    def message(self, recent: Sequence[StretchedTick], acks: Sequence[Ack], heard: Iterable[int]) -> Tick:
+        """What `tick` publishes."""
+        acks = _fitting(acks, PART_BYTES - len(recent[-1].inputs))
+        rest = ENVELOPE_BYTES + sum(map(_size, acks))
+        count = self._repeats.choose(recent, heard, rest=rest)
+        return Tick.of(self._epoch, recent[-count:], acks)
 
     def snapshot(self, tick: int, data: bytes) -> None:
         """Publish a full state, in parts."""
@@ -61,3 +73,18 @@ class Publisher:
         publisher.put(data)
         self._counters["messages out"] += 1
         self._counters["bytes out"] += len(data)
+
+
+def _size(ack: Ack) -> int:
+    return 0 if ack.refused is None else ACK_BYTES + len(ack.refused.encode())
+
+
+def _fitting(acks: Sequence[Ack], room: int) -> list[Ack]:
+    """As many as fit, newest first; who does not hear of an outcome asks again."""
+    taken: list[Ack] = []
+    for ack in reversed(acks):
+        room -= ACK_BYTES + _size(ack)
+        if room < 0:
+            break
+        taken.append(ack)
+    return taken[::-1]

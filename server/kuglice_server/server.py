@@ -16,6 +16,7 @@ import zenoh
 from kuglice import Scene, World, __version__, _core
 from kuglice.errors import ProtocolError
 from kuglice.protocol import (
+    DEFAULT_ENDPOINT,
     About,
     Declared,
     Keys,
@@ -41,6 +42,9 @@ log = logging.getLogger(__name__)
 HISTORY_SECONDS = 60
 EARLIEST_SECONDS = 2
 WAITING_MESSAGES = 4096
+EPOCH_BITS = 26
+HASHED_BALLS = 100_000
+"""Up to so many balls every state's hash is told."""
 
 
 @dataclass(frozen=True)
@@ -48,15 +52,17 @@ class ServerSettings:
     """How a world is served; none of it changes its bits.
 
     `rate`: ticks per second of wall clock (None: the scene's). `snapshot_every`: ticks between published
-    snapshots (None: a second's worth). `threads`: how many share the work of a step. `insecure`: listen on
-    addresses that others can reach, although there are no accounts and no encryption yet.
+    snapshots (None: a second's worth). `hash_every`: ticks between states whose hash is told (None: every one,
+    or one per second where that would cost too much). `threads`: how many share the work of a step. `insecure`:
+    listen on addresses that others can reach, although there are no accounts and no encryption yet.
     """
 
     world: str
-    listen: Sequence[str] = ("tcp/127.0.0.1:7447",)
+    listen: Sequence[str] = (DEFAULT_ENDPOINT,)
     connect: Sequence[str] = ()
     rate: float | None = None
     snapshot_every: int | None = None
+    hash_every: int | None = None
     record: Path | None = None
     threads: int = 1
     insecure: bool = False
@@ -68,6 +74,8 @@ class ServerSettings:
             refuse_exposed(self.listen)
         if self.snapshot_every is not None and self.snapshot_every < 1:
             raise ProtocolError(f"snapshot-every {self.snapshot_every}: must be at least 1 tick")
+        if self.hash_every is not None and self.hash_every < 1:
+            raise ProtocolError(f"hash-every {self.hash_every}: must be at least 1 tick")
         if self.rate is not None and not 0 < self.rate <= 10_000:
             raise ProtocolError(f"rate {self.rate}: must be above 0 and at most 10000 ticks per second")
 
@@ -78,11 +86,15 @@ class Server:
     def __init__(self, scene: Scene, settings: ServerSettings) -> None:
         self.settings = settings
         self.world = World(scene, threads=settings.threads)
-        # Grows from run to run, so that a restarted server never says an epoch again.
-        self.epoch = time.time_ns()
+        # Grows from run to run, so that a restarted server never says an epoch again: no server starts twice
+        # within the 67 ms that are one. A finer clock would cost bytes in every message.
+        self.epoch = time.time_ns() >> EPOCH_BITS
         self.rate = settings.rate if settings.rate is not None else scene.tick_rate
         self.counters: Counter[str] = Counter()
         self._snapshot_every = settings.snapshot_every or max(1, round(self.rate))
+        self._hash_every = settings.hash_every or (
+            1 if self.world.count <= HASHED_BALLS else max(1, round(self.rate))
+        )
         self._scene = scene
         self._scene_message = scene.to_message()
         self._lock = threading.Lock()
@@ -99,7 +111,7 @@ class Server:
         self._record = Record(settings.record, self.world) if settings.record is not None else None
         keys = Keys(settings.world)
         self._session = open_session(server_configuration(listen=settings.listen, connect=settings.connect))
-        publisher = Publisher(self._session, keys, epoch=self.epoch, counters=self.counters)
+        publisher = Publisher(self._session, keys, epoch=self.epoch, rate=self.rate, counters=self.counters)
         tokens: zenoh.Subscriber[Any] = self._session.liveliness().declare_subscriber(
             keys.clients, zenoh.handlers.RingChannel(WAITING_MESSAGES), history=True
         )
@@ -115,6 +127,7 @@ class Server:
             tokens=tokens,
             inputs=inputs,
             snapshot_every=self._snapshot_every,
+            hash_every=self._hash_every,
             counters=self.counters,
             lock=self._lock,
             record=self._record,
@@ -172,6 +185,7 @@ class Server:
             model=self.world.model.to_message(),
             rate=self.rate,
             snapshot_every=self._snapshot_every,
+            hash_every=self._hash_every,
             history_ticks=self._history.span,
             tick=self._now,
         )

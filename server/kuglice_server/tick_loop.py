@@ -14,7 +14,7 @@ import zenoh
 from kuglice import World
 from kuglice.errors import InputError, ProtocolError, StepError
 from kuglice.inputs import Input, pack
-from kuglice.protocol import Keys, StretchedTick
+from kuglice.protocol import MAX_TOLD_TICKS, Keys, StretchedTick
 from kuglice_server.attempts import attempts
 from kuglice_server.history import History, KeptSnapshot
 from kuglice_server.intake import Intake
@@ -26,8 +26,8 @@ __all__ = ["TickLoop"]
 
 log = logging.getLogger(__name__)
 
-REPEATED_TICKS = 6
-"""Ticks per tick message: a client may miss five in a row and needs nobody's help."""
+REPEATED_ACKS = 6
+"""Tick messages that tell of a refusal."""
 
 
 class TickLoop:
@@ -44,6 +44,7 @@ class TickLoop:
         tokens: zenoh.Subscriber[Any],
         inputs: zenoh.Subscriber[Any],
         snapshot_every: int,
+        hash_every: int,
         counters: Counter[str],
         lock: threading.Lock,
         record: Record | None,
@@ -56,6 +57,7 @@ class TickLoop:
         self._tokens = tokens
         self._inputs = inputs
         self._snapshot_every = snapshot_every
+        self._hash_every = hash_every
         self._counters = counters
         self._lock = lock
         self._record = record
@@ -69,14 +71,17 @@ class TickLoop:
             self._take_inputs()
             authored = self._players.authored(world)
             inputs = self._intake.due(number)
-            acks = self._intake.acks(number, repeat=REPEATED_TICKS)
+            acks = self._intake.acks(number, repeat=REPEATED_ACKS)
+            heard = self._players.heard
         if number % self._snapshot_every == 0:
             data = world.snapshot()
             self._history.add_snapshot(KeptSnapshot(number, data))
             self._guarded(partial(self._publisher.snapshot, number, data))
-        entry = StretchedTick(number, self._step(authored, inputs), world.state_hash)
+        records = self._step(authored, inputs)
+        hashed = world.tick % self._hash_every == 0
+        entry = StretchedTick(number, records, world.state_hash if hashed else None)
         self._history.add_tick(entry)
-        self._guarded(partial(self._publisher.tick, self._history.recent(REPEATED_TICKS), acks))
+        self._guarded(partial(self._publisher.tick, self._history.recent(MAX_TOLD_TICKS), acks, heard))
         if self._record is not None:
             self._record.add(entry)
 

@@ -6,7 +6,7 @@ import pytest
 
 from kuglice import World
 from kuglice.inputs import Input, Join, pack
-from kuglice.protocol import Stretch, StretchedTick, Tick
+from kuglice.protocol import History, StretchedTick, Tick
 from server.small_arena import small_arena
 
 EPOCH = 5
@@ -32,13 +32,11 @@ class Authority:
         """The tick message before state `end`, the newest by default, with `repeat` ticks."""
         end = end or len(self.ticks)
         told = self.ticks[max(0, end - repeat) : end]
-        return Tick(
-            epoch=EPOCH,
-            first=told[0].tick,
-            inputs=[entry.inputs for entry in told],
-            hashes=Stretch.pack_hashes([entry.state_hash for entry in told]),
-            acks=[],
-        )
+        return Tick.of(EPOCH, told)
+
+    def history(self, first: int, end: int) -> History:
+        """The answer of the server's history for the ticks first .. end - 1."""
+        return History.of(EPOCH, [entry for entry in self.ticks if first <= entry.tick < end])
 
 
 @pytest.fixture

@@ -35,7 +35,11 @@ def test_any_order_and_any_repetition_gives_the_same_states(authority, shuffler,
             {step.entry.tick: (step.state_hash, step.entry.state_hash) for step in follower.advance()}
         )
     assert list(hashes) == [entry.tick for entry in authority.ticks[first:]]
-    assert all(ours == theirs for ours, theirs in hashes.values())
+    told = {tick: pair for tick, pair in hashes.items() if pair[1] is not None}
+    assert all(ours == theirs for ours, theirs in told.values())
+    # The newest tick of a message has its hash, and every tick was the newest of one.
+    assert repeat > 1 or list(told) == list(hashes)
+    assert max(hashes) in told
     assert follower.world.snapshot() == authority.world.snapshot()
 
 
@@ -55,9 +59,30 @@ def test_repeats_bridge_what_they_can_and_the_rest_is_a_gap(authority, lost):
         assert follower.healed_by_repeats == lost
     else:
         assert (stepped, follower.gap) == (0, (reached, reached + lost + 1 - 6))
-        follower.take(authority.message(follower.gap[1], repeat=follower.gap[1] - reached), from_history=True)
+        follower.take(authority.history(*follower.gap), from_history=True)
         assert len(list(follower.advance())) == lost + 1
         assert follower.healed_by_history == lost - 5
+    assert follower.world.snapshot() == authority.world.snapshot()
+
+
+def test_a_hash_that_comes_after_a_repeat_of_its_tick_is_still_checked(authority):
+    follower = Follower(authority.world.clone())
+    authority.step()
+    first = authority.message()
+    authority.step()
+    follower.take(authority.message(repeat=2))
+    follower.take(first)
+    steps = list(follower.advance())
+    assert [step.entry.state_hash for step in steps] == [entry.state_hash for entry in authority.ticks[-2:]]
+    assert all(step.state_hash == step.entry.state_hash for step in steps)
+
+
+def test_a_tick_whose_hash_is_not_told_is_stepped_and_not_hashed(authority):
+    follower = Follower(authority.world.clone())
+    authority.step()
+    follower.take(authority.message().model_copy(update={"state_hash": None}))
+    (step,) = follower.advance()
+    assert step.state_hash is None
     assert follower.world.snapshot() == authority.world.snapshot()
 
 

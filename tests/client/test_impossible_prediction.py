@@ -10,7 +10,7 @@ import pytest
 from kuglice import Model, World
 from kuglice.errors import StepError
 from kuglice.inputs import Join, Kick, pack
-from kuglice.protocol import Stretch, StretchedTick, Tick
+from kuglice.protocol import StretchedTick, Tick
 from kuglice_client.follow import Follower
 from kuglice_client.prediction import Prediction
 from server.small_arena import small_arena
@@ -62,7 +62,6 @@ def test_prediction_waits_before_such_a_tick_and_goes_on_when_the_server_has(con
 
 def test_a_tick_of_the_stream_that_cannot_be_stepped_is_a_gap_and_not_the_end(confirmed: World) -> None:
     follower = Follower(confirmed)
-    hashes = Stretch.pack_hashes([0])
-    follower.take(Tick(epoch=1, first=confirmed.tick, inputs=[pack([IMPOSSIBLE])], hashes=hashes, acks=[]))
+    follower.take(Tick.of(1, [StretchedTick(confirmed.tick, pack([IMPOSSIBLE]), 0)]))
     assert list(follower.advance()) == []
     assert follower.unusable == 1

@@ -9,7 +9,7 @@ import zenoh
 
 from e2e.processes import until
 from kuglice.errors import ProtocolError
-from kuglice.inputs import Input, to_message
+from kuglice.inputs import Input
 from kuglice.protocol import (
     Ack,
     ClientInputs,
@@ -87,12 +87,11 @@ class RawClient:
         self, *wanted: tuple[int, int, Input], epoch: int | None = None, name: str | None = None
     ) -> None:
         """(sequence, tick, input) each, in one message."""
-        sent = []
-        for sequence, tick, given in wanted:
-            act = to_message(given)
-            del act["client"], act["sequence"]
-            sent.append(SentInput(sequence=sequence, tick=tick, act=act))
-        self.raw(encode(ClientInputs(epoch=epoch or self.status().epoch, inputs=sent)), name)
+        sent = [
+            SentInput(tick, given.model_copy(update={"sequence": sequence}))
+            for sequence, tick, given in wanted
+        ]
+        self.raw(encode(ClientInputs(epoch=epoch or self.status().epoch, heard=0, inputs=sent)), name)
 
     def answer(self, sequence: int | None) -> Ack:
         """What became of an input, waited for."""

@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+import struct
 from collections import Counter
 
+import msgpack
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from kuglice import World
-from kuglice.inputs import Attract, Input, Join, Kick, Leave, Remove, Spawn, Thrust, to_message
-from kuglice.protocol import ClientInputs, Keys, SentInput, encode
+from kuglice.inputs import Attract, Input, Join, Kick, Leave, Remove, Spawn, Thrust, pack
+from kuglice.protocol import PROTOCOL_VERSION, Ack, ClientInputs, Keys, SentInput, encode
+from kuglice.protocol.compact import RecordWriter
+from kuglice.protocol.varint import write_signed, write_varint
 from kuglice_server.intake import MESSAGES_PER_TICK, Intake
 from kuglice_server.players import Players
 from server.small_arena import small_arena
 
 EPOCH = 77
 HORIZON = 50
+REPEAT = 6
 KEYS = Keys("small")
 
 
@@ -28,6 +33,7 @@ class Desk:
         self.world = World(scene)
         players = Players(scene)
         self.counters: Counter[str] = Counter()
+        self.told: list[Ack] = []
         self.intake = Intake(scene, players, epoch=EPOCH, horizon=HORIZON, counters=self.counters)
         players.arrive("ana")
         self.world.step(players.authored(self.world))
@@ -35,20 +41,27 @@ class Desk:
 
     def send(self, *wanted: tuple[int, int, Input], name: str = "ana", epoch: int = EPOCH) -> list:
         """(sequence, tick, input) each, in one message; the outcomes that are news."""
-        sent = []
-        for sequence, tick, one in wanted:
-            act = to_message(one)
-            del act["client"], act["sequence"]
-            sent.append(SentInput(sequence=sequence, tick=tick, act=act))
-        return self.raw(encode(ClientInputs(epoch=epoch, inputs=sent)), name=name)
+        sent = [
+            SentInput(tick, one.model_copy(update={"sequence": sequence})) for sequence, tick, one in wanted
+        ]
+        return self.raw(encode(ClientInputs(epoch=epoch, heard=self.world.tick, inputs=sent)), name=name)
 
     def raw(self, payload: bytes, name: str = "ana") -> list:
-        before = self.intake.acks(self.world.tick, repeat=1000)
+        """What is news afterwards: outcomes that are told, and those that will be when their tick comes."""
+        known = [*self.told, *self.player.outcomes.values()]
         self.intake.receive(KEYS.input(name), payload, world=self.world)
-        return [ack for ack in self.intake.acks(self.world.tick, repeat=1000) if ack not in before]
+        news = [ack for ack in self.tell() if ack not in known]
+        return news + [ack for ack in self.player.outcomes.values() if ack not in (*known, *news)]
+
+    def tell(self) -> list[Ack]:
+        """The outcomes that go with the next tick."""
+        acks = self.intake.acks(self.world.tick, repeat=REPEAT)
+        self.told += acks
+        return acks
 
     def step(self) -> list[Input]:
         inputs = self.intake.due(self.world.tick)
+        self.tell()
         self.world.step(inputs)
         return inputs
 
@@ -81,15 +94,27 @@ def test_too_early_is_refused(desk):
     assert f"at most {HORIZON} ticks after" in ack.refused
 
 
-def test_twice_is_acknowledged_as_before_and_applied_once(desk):
-    first = desk.send((1, 2, Kick(vx=1, vy=0)))
+def test_twice_is_applied_once_and_told_again_only_when_the_stream_is_through_with_it(desk):
+    (first,) = desk.send((1, 2, Kick(vx=1, vy=0)))
     assert desk.send((1, 2, Kick(vx=1, vy=0))) == []
     assert desk.send((1, 9, Kick(vx=1, vy=0))) == []
-    applied = [desk.step() for _ in range(12)]
+    assert desk.told == [], "it has not acted yet"
+    applied = [desk.step() for _ in range(3)]
+    assert desk.told == [first], "the tick in which it acts says so"
+    desk.send((1, 2, Kick(vx=1, vy=0)))
+    applied += [desk.step() for _ in range(9)]
+    assert desk.told == [first]
+    desk.send((1, 2, Kick(vx=1, vy=0)))
+    assert desk.told == [first, first]
+    applied += [desk.step() for _ in range(9)]
     assert sum(len(inputs) for inputs in applied) == 1
-    desk.intake.acks(desk.world.tick + 5000, repeat=1)
-    assert desk.send((1, 2, Kick(vx=1, vy=0))) == first
-    assert desk.counters["duplicate"] == 3
+    assert desk.counters["duplicate"] == 4
+
+
+def test_what_acts_much_later_is_told_at_once_too(desk):
+    (ack,) = desk.send((1, desk.world.tick + 30, Thrust(x=5, y=0)))
+    assert desk.told == [ack]
+    assert ack.tick == 31
 
 
 def test_a_sequence_number_that_was_skipped_comes_too_late(desk):
@@ -120,33 +145,24 @@ def test_what_the_scene_does_not_allow_is_refused_with_value_and_bound(desk, giv
     assert all(desk.step() == [] for _ in range(5))
 
 
-@pytest.mark.parametrize(
-    "act",
-    [
-        {},
-        {"kind": "dance"},
-        {"kind": "thrust"},
-        {"kind": "thrust", "x": "fast", "y": 0.0},
-        {"kind": "thrust", "x": float("nan"), "y": 0.0},
-        {"kind": "thrust", "x": float("inf"), "y": 0.0},
-        {"kind": "kick", "vx": 0.0, "vy": 0.0, "ball": -1},
-        {"kind": "remove", "ball": 2**64 - 1},
-    ],
-)
-def test_an_input_that_is_none_is_refused(desk, act):
-    message = ClientInputs(epoch=EPOCH, inputs=[SentInput(sequence=1, tick=2, act=act)])
-    (ack,) = desk.raw(encode(message))
-    assert ack.tick is None
-    assert ack.refused
+@pytest.mark.parametrize(("number", "reason"), [("nan", "NaN is none"), ("inf", "finite")])
+def test_an_input_that_is_none_is_refused_with_its_message(desk, number, reason):
+    thrust = SentInput(2, Thrust(sequence=1, x=0.1, y=0.2))
+    good = encode(ClientInputs(epoch=EPOCH, heard=1, inputs=[thrust]))
+    assert good.endswith(struct.pack("<2d", 0.1, 0.2))
+    (ack,) = desk.raw(good[:-8] + struct.pack("<d", float(number)))
+    assert (ack.client, ack.sequence, ack.tick) == (1, None, None)
+    assert reason in ack.refused
     assert all(desk.step() == [] for _ in range(5))
 
 
 def test_who_it_is_comes_from_the_key_not_from_what_it_says(desk):
-    message = ClientInputs(
-        epoch=EPOCH,
-        inputs=[SentInput(sequence=1, tick=2, act={"kind": "thrust", "x": 1.0, "y": 0.0, "client": 0})],
-    )
-    (ack,) = desk.raw(encode(message))
+    out = bytearray()
+    write_varint(out, EPOCH)
+    write_varint(out, 1)
+    write_signed(out, 1)
+    RecordWriter(out).write(pack([Thrust(client=7, sequence=1, x=1.0, y=0.0)]))
+    (ack,) = desk.raw(msgpack.packb({"v": PROTOCOL_VERSION, "i": bytes(out)}))
     assert ack.client == 1
     desk.step()
     assert [one.client for one in desk.step()] == [1]
@@ -215,7 +231,13 @@ def test_inputs_of_one_client_act_at_most_once_and_in_the_order_of_their_numbers
     assert happened == {sequence: tick for sequence, tick in told.items() if tick is not None}
 
 
-def test_outcomes_are_repeated_for_a_few_ticks(desk):
-    desk.send((1, 2, Thrust(x=1, y=0)))
+def test_refusals_are_repeated_for_a_few_ticks(desk):
+    desk.send((1, 2, Thrust(x=99, y=0)))
     tick = desk.world.tick
     assert [len(desk.intake.acks(tick + later, repeat=3)) for later in range(5)] == [1, 1, 1, 0, 0]
+
+
+def test_what_a_client_has_heard_is_remembered_and_never_more_than_there_is(desk):
+    for heard, remembered in ((1, 1), (0, 1), (99, desk.world.tick)):
+        desk.raw(encode(ClientInputs(epoch=EPOCH, heard=heard, inputs=[])))
+        assert desk.player.heard == remembered

@@ -9,6 +9,7 @@ import pytest
 import zenoh
 
 from kuglice._core import INPUT_BYTES
+from kuglice.inputs import Spawn, Thrust, pack
 from kuglice.protocol import (
     Ack,
     Assembly,
@@ -21,7 +22,9 @@ from kuglice.protocol import (
     open_session,
     server_configuration,
 )
+from kuglice_server.intake import MAX_ACKS, MAX_PER_TICK, MAX_REASON
 from kuglice_server.publish import Publisher
+from kuglice_server.repeats import DATAGRAM_BYTES
 
 BATCH = 65_535
 
@@ -35,7 +38,7 @@ def wire():
     session = open_session(server_configuration(listen=[endpoint], connect=[]))
     keys = Keys("test")
     heard = session.declare_subscriber("kuglice/test/**", zenoh.handlers.FifoChannel(1000))
-    publisher = Publisher(session, keys, epoch=9, counters=Counter())
+    publisher = Publisher(session, keys, epoch=9, rate=60, counters=Counter())
 
     def payloads() -> list[bytes]:
         found = []
@@ -48,27 +51,52 @@ def wire():
 
 
 def ticks(count: int, inputs_each: int) -> list[StretchedTick]:
-    return [StretchedTick(100 + n, b"x" * (INPUT_BYTES * inputs_each), n) for n in range(count)]
+    one = [Thrust(client=1, sequence=number + 1, x=0.1 * number, y=0.3) for number in range(inputs_each)]
+    return [StretchedTick(100 + n, pack(one), n) for n in range(count)]
+
+
+def unhashed(told: list[StretchedTick]) -> list[StretchedTick]:
+    return [entry._replace(state_hash=None) for entry in told[:-1]] + told[-1:]
 
 
 def test_the_last_ticks_are_repeated(wire):
     publisher, payloads = wire
-    told = ticks(6, 2)
-    publisher.tick(told, [Ack(1, 2, 3, 0, None)])
-    (payload,) = payloads()
-    message = decode(payload, Tick)
-    assert list(message.ticks()) == told
+    told = ticks(6, 0)
+    for end in range(1, 7):
+        publisher.tick(told[:end], [Ack(1, 2, 3, 0, None)])
+    message = decode(payloads()[-1], Tick)
+    assert list(message.ticks()) == unhashed(told)
     assert message.acks == [Ack(1, 2, 3, 0, None)]
 
 
-@pytest.mark.parametrize(("inputs_each", "repeated"), [(100, 6), (200, 4), (400, 2), (800, 1)])
-def test_repeats_give_way_before_a_message_outgrows_a_batch(wire, inputs_each, repeated):
+@pytest.mark.parametrize(("inputs_each", "repeated"), [(10, 3), (25, 2), (60, 1), (600, 1)])
+def test_repeats_give_way_before_a_message_outgrows_a_datagram(wire, inputs_each, repeated):
     publisher, payloads = wire
-    publisher.tick(ticks(6, inputs_each), [])
+    told = ticks(6, inputs_each)
+    for end in range(1, 7):
+        publisher.tick(told[:end], [])
+    payload = payloads()[-1]
+    assert len(payload) <= (DATAGRAM_BYTES if repeated > 1 else BATCH)
+    message = decode(payload, Tick)
+    assert (message.first, message.end) == (106 - repeated, 106)
+
+
+def test_the_fullest_tick_with_the_longest_refusals_fits_into_one_batch(wire):
+    publisher, payloads = wire
+    longest = Spawn(client=2**32 - 1, x=0.1, y=0.1, vx=0.1, vy=0.1, radius=0.1, mass=0.1)
+    inputs = [
+        longest.model_copy(update={"client": 2**32 - 1 - number % 2, "sequence": 2**63 * (number // 2 % 2)})
+        for number in range(MAX_PER_TICK)
+    ]
+    acks = [
+        Ack(2**32 - 1, 2**64 - 1 - number, None, -(10**9), "ž" * MAX_REASON) for number in range(MAX_ACKS)
+    ]
+    publisher.tick([StretchedTick(2**62 - 1, pack(inputs), 1)], acks)
     (payload,) = payloads()
     assert len(payload) <= BATCH
     message = decode(payload, Tick)
-    assert (message.first, message.end) == (106 - repeated, 106)
+    assert len(message.inputs[0]) == MAX_PER_TICK * INPUT_BYTES
+    assert message.acks == acks[-len(message.acks) :]
 
 
 def test_a_snapshot_goes_out_in_parts_that_make_it_again(wire):

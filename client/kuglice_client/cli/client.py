@@ -19,6 +19,7 @@ from kuglice.cli.logs import STDERR, log_to_stderr
 from kuglice.cli.stop import stop_on_signals
 from kuglice.errors import KugliceError
 from kuglice.extras import require
+from kuglice.protocol import DEFAULT_ENDPOINT
 from kuglice_client.bots import BOTS
 from kuglice_client.client import Client, ClientSettings
 
@@ -40,7 +41,11 @@ def register(app: typer.Typer) -> None:
 def client(
     *,
     connect: Annotated[
-        list[str] | None, typer.Option(help="Endpoint of the server. [default: tcp/127.0.0.1:7447]")
+        list[str] | None,
+        typer.Option(
+            help="Endpoint of the server: tcp/host:port, or tcp+udp/host:port to take ticks and send inputs as "
+            f"datagrams where they get through. [default: {DEFAULT_ENDPOINT}]"
+        ),
     ] = None,
     world: Annotated[
         str | None, typer.Option(help="World to join. [default: the only one served there]")
@@ -86,7 +91,7 @@ def client(
     log_to_stderr()
     stop = stop_on_signals()
     settings = ClientSettings(
-        connect=tuple(connect or ("tcp/127.0.0.1:7447",)),
+        connect=tuple(connect or (DEFAULT_ENDPOINT,)),
         world=world,
         name=name or (f"{bot}-{secrets.token_hex(3)}" if bot else None),
         bot=bot,

@@ -15,6 +15,7 @@ from kuglice import _core, scenes
 from kuglice.cli.figures import print_figures
 from kuglice.cli.logs import STDERR, log_to_stderr
 from kuglice.cli.stop import stop_on_signals
+from kuglice.protocol import DEFAULT_ENDPOINT
 from kuglice_server.server import Server, ServerSettings
 
 __all__ = ["register"]
@@ -30,7 +31,10 @@ def server(
     *,
     listen: Annotated[
         list[str] | None,
-        typer.Option(help="Endpoint to listen on; may be repeated. [default: tcp/127.0.0.1:7447]"),
+        typer.Option(
+            help="Endpoint to listen on: tcp/host:port, or tcp+udp/host:port, where ticks and inputs go as "
+            f"datagrams; may be repeated. [default: {DEFAULT_ENDPOINT}]"
+        ),
     ] = None,
     connect: Annotated[
         list[str] | None, typer.Option(help="Endpoint of a router that runs already, instead of listening.")
@@ -44,6 +48,12 @@ def server(
     ] = None,
     snapshot_every: Annotated[
         int | None, typer.Option(help="Ticks between published snapshots. [default: a second's worth]")
+    ] = None,
+    hash_every: Annotated[
+        int | None,
+        typer.Option(
+            help="Ticks between states whose hash is told. [default: 1; a second's worth above 100,000 balls]"
+        ),
     ] = None,
     record: Annotated[Path | None, typer.Option(help="Write a replay file.")] = None,
     threads: Annotated[
@@ -72,10 +82,11 @@ def server(
     stop = stop_on_signals()
     settings = ServerSettings(
         world=world or _name_of(scene),
-        listen=tuple(listen or (() if connect else ("tcp/127.0.0.1:7447",))),
+        listen=tuple(listen or (() if connect else (DEFAULT_ENDPOINT,))),
         connect=tuple(connect or ()),
         rate=rate,
         snapshot_every=snapshot_every,
+        hash_every=hash_every,
         record=record,
         threads=threads,
         insecure=insecure,

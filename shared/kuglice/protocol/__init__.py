@@ -4,10 +4,13 @@ Server and client both speak through this package and through nothing else.
 """
 
 from kuglice.protocol.codec import decode, encode
+from kuglice.protocol.compact import packed_size
+from kuglice.protocol.endpoints import DEFAULT_ENDPOINT, is_loopback
 from kuglice.protocol.exposure import refuse_exposed
 from kuglice.protocol.keys import ANY_STATUS, Keys, check_name
 from kuglice.protocol.messages import (
     MAX_INPUTS,
+    MAX_TOLD_TICKS,
     PART_BYTES,
     PROTOCOL_VERSION,
     About,
@@ -28,19 +31,21 @@ from kuglice.protocol.messages import (
 )
 from kuglice.protocol.parts import Assembly, Whole, split
 from kuglice.protocol.session import (
-    CLIENT_LEASE_MS,
+    LEASE_MS,
     Declared,
     client_configuration,
     close_session,
-    is_loopback,
+    open_links,
     open_session,
     server_configuration,
 )
 
 __all__ = [
     "ANY_STATUS",
-    "CLIENT_LEASE_MS",
+    "DEFAULT_ENDPOINT",
+    "LEASE_MS",
     "MAX_INPUTS",
+    "MAX_TOLD_TICKS",
     "PART_BYTES",
     "PROTOCOL_VERSION",
     "About",
@@ -68,7 +73,9 @@ __all__ = [
     "decode",
     "encode",
     "is_loopback",
+    "open_links",
     "open_session",
+    "packed_size",
     "refuse_exposed",
     "server_configuration",
     "split",

@@ -9,7 +9,7 @@ import msgpack
 from pydantic import ValidationError
 
 from kuglice.errors import ProtocolError
-from kuglice.protocol.messages.envelope import PROTOCOL_VERSION, Message
+from kuglice.protocol.messages.envelope import PROTOCOL_VERSION, CompactMessage, Message
 
 __all__ = ["decode", "encode"]
 
@@ -21,11 +21,11 @@ _SHORT.maxstring = _SHORT.maxother = 80
 
 
 def encode(message: Message) -> bytes:
-    """A msgpack map: version `v`, kind, and the message's own fields.
+    """A msgpack map: version `v`, kind, and the message's own fields; of one that is compact, its bytes.
 
     Raises ProtocolError if it is too large.
     """
-    body = {"v": PROTOCOL_VERSION, "kind": message.kind, **message.model_dump()}
+    body = {"v": PROTOCOL_VERSION, **message.to_body()}
     data: bytes = msgpack.packb(body)
     if len(data) > message.max_bytes:
         raise ProtocolError(
@@ -46,16 +46,26 @@ def decode(data: bytes, *kinds: type[M]) -> M:
         raise ProtocolError(
             f"message {names}: protocol version {_SHORT.repr(version)}, this side speaks {PROTOCOL_VERSION}"
         )
-    name = body.pop("kind", None)
-    kind = next((kind for kind in kinds if kind.kind == name), None)
+    kind = next((kind for kind in kinds if _is(kind, body)), None)
     if kind is None:
-        raise ProtocolError(f"message {_SHORT.repr(name)}: expected {names}")
+        raise ProtocolError(f"message {_SHORT.repr(body.get('kind', list(body)))}: expected {names}")
     if len(data) > kind.max_bytes:
         raise ProtocolError(f"message {kind.kind!r}: {len(data)} bytes, at most {kind.max_bytes} allowed")
     try:
-        return kind.model_validate(body)
+        if issubclass(kind, CompactMessage):
+            return kind.read(body[kind.letter])
+        del body["kind"]
+        return kind.from_body(body)
     except ValidationError as error:
         raise ProtocolError(f"message {kind.kind!r}: {_first(error)}") from error
+    except ProtocolError as error:
+        raise ProtocolError(f"message {kind.kind!r}: {error}") from error
+
+
+def _is(kind: type[Message], body: dict[str, Any]) -> bool:
+    if issubclass(kind, CompactMessage):
+        return body.keys() == {kind.letter} and isinstance(body[kind.letter], bytes)
+    return bool(body.get("kind") == kind.kind)
 
 
 def _unpack(data: bytes, names: str) -> dict[str, Any]:

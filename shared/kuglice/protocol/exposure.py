@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from kuglice.errors import ProtocolError
-from kuglice.protocol.session import is_loopback
+from kuglice.protocol.endpoints import is_loopback
 
 __all__ = ["refuse_exposed"]
 

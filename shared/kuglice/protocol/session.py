@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ipaddress
 import json
 import threading
 from collections.abc import Iterable, Sequence
@@ -11,21 +10,25 @@ from typing import Any, Protocol
 import zenoh
 
 from kuglice.errors import ProtocolError
+from kuglice.protocol.endpoints import locators
 
 __all__ = [
-    "CLIENT_LEASE_MS",
+    "LEASE_MS",
     "Declared",
     "client_configuration",
     "close_session",
-    "is_loopback",
+    "open_links",
     "open_session",
     "server_configuration",
 ]
 
-CLIENT_LEASE_MS = 2000
-"""A client that froze is noticed after this; it is the client's own lease that counts, not the server's."""
+LEASE_MS = 2000
+"""One that froze, or a link that is dead, is noticed after this by the other end: each one's own lease counts."""
 
-LOCAL_PROTOCOLS = ("unixsock-stream",)
+LINKS = 2
+"""Between two sessions: a stream, and datagrams beside it."""
+OPEN_TIMEOUT_MS = 2000
+"""How long a link that nobody answers on is tried, when another one is there."""
 
 
 class Declared(Protocol):
@@ -38,13 +41,18 @@ class Declared(Protocol):
 def server_configuration(*, listen: Sequence[str], connect: Sequence[str]) -> dict[str, Any]:
     """The server is its own router (`listen`), or joins one that runs already (`connect`), or both."""
     if listen:
-        return _configuration("router", listen=listen, connect=connect)
+        # Datagrams that get through no more are to be noticed at the other end too, and soon.
+        lease_ms = LEASE_MS if any(len(locators(endpoint)) > 1 for endpoint in listen) else None
+        return _configuration("router", listen=listen, connect=connect, lease_ms=lease_ms)
     return _configuration("client", listen=(), connect=connect)
 
 
 def client_configuration(connect: Sequence[str], *, timeout: float) -> dict[str, Any]:
-    """A session that connects to one of the endpoints, and gives up after `timeout` seconds."""
-    return _configuration("client", listen=(), connect=connect, timeout=timeout, lease_ms=CLIENT_LEASE_MS)
+    """A session that connects to one of the endpoints, and gives up after `timeout` seconds.
+
+    Where datagrams are wanted too (tcp+udp/...), it is content with the stream if they do not get through.
+    """
+    return _configuration("client", listen=(), connect=connect, timeout=timeout, lease_ms=LEASE_MS)
 
 
 def _configuration(
@@ -59,35 +67,26 @@ def _configuration(
         "mode": mode,
         "scouting": {"multicast": {"enabled": False}, "gossip": {"enabled": False}},
         # Shared memory lost data under load, and leaves segments behind when a process is killed.
-        "transport": {"shared_memory": {"enabled": False}},
+        "transport": {"shared_memory": {"enabled": False}, "unicast": {"max_links": LINKS}},
     }
     if listen:
-        configuration["listen"] = {"endpoints": list(listen)}
+        configuration["listen"] = {"endpoints": [one for endpoint in listen for one in locators(endpoint)]}
     if connect:
-        configuration["connect"] = {"endpoints": list(connect), "timeout_ms": int(timeout * 1000)}
+        targets = [locators(endpoint) for endpoint in connect]
+        configuration["connect"] = {
+            "endpoints": [
+                target[0] if len(target) == 1 else {"strategy": "allOf", "locators": target}
+                for target in targets
+            ],
+            "timeout_ms": int(timeout * 1000),
+        }
+        if mode == "client" and any(len(target) > 1 for target in targets):
+            # With any other timeout Zenoh wants all links or none; so it goes on with the one it gets, at once.
+            configuration["connect"]["timeout_ms"] = 0
+            configuration["transport"]["unicast"]["open_timeout"] = OPEN_TIMEOUT_MS
     if lease_ms is not None:
         configuration["transport"]["link"] = {"tx": {"lease": lease_ms}}
     return configuration
-
-
-def is_loopback(endpoint: str) -> bool:
-    """Whether nobody but this machine can reach `endpoint`; raises ProtocolError if it is none."""
-    protocol, slash, rest = endpoint.partition("/")
-    if not slash or not protocol or not rest:
-        raise ProtocolError(f"endpoint {endpoint!r}: must look like tcp/127.0.0.1:7447")
-    if protocol in LOCAL_PROTOCOLS:
-        return True
-    address = rest.partition("?")[0].partition("#")[0]
-    host, colon, port = address.rpartition(":")
-    if not colon or not port.isdecimal() or int(port) > 65535:
-        raise ProtocolError(f"endpoint {endpoint!r}: must end with a port of 0 to 65535")
-    host = host.removeprefix("[").removesuffix("]")
-    if host == "localhost":
-        return True
-    try:
-        return ipaddress.ip_address(host).is_loopback
-    except ValueError:
-        return False
 
 
 def open_session(configuration: dict[str, Any]) -> zenoh.Session:
@@ -98,12 +97,21 @@ def open_session(configuration: dict[str, Any]) -> zenoh.Session:
         listen = configuration.get("listen", {}).get("endpoints", [])
         connect = configuration.get("connect", {}).get("endpoints", [])
         what = " and ".join(
-            f"{verb} {', '.join(endpoints)}"
+            f"{verb} {', '.join(map(_told, endpoints))}"
             for verb, endpoints in (("listen on", listen), ("connect to", connect))
             if endpoints
         )
         # Zenoh's text ends with the source line that it came from; that is of no use to a user.
         raise ProtocolError(f"cannot {what}: {str(error).partition(' at /')[0]}") from error
+
+
+def _told(endpoint: str | dict[str, Any]) -> str:
+    return endpoint if isinstance(endpoint, str) else " + ".join(endpoint["locators"])
+
+
+def open_links(session: zenoh.Session) -> list[str]:
+    """The kinds of links that are up, like `tcp` or `udp`, each once, in order of the alphabet."""
+    return sorted({str(link.dst).partition("/")[0] for link in session.info.links()})
 
 
 def close_session(session: zenoh.Session, declared: Iterable[Declared], *, timeout: float = 5.0) -> bool:

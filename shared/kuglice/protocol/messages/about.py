@@ -15,7 +15,7 @@ class About(Message):
     """Scene and model as their own modules put them into messages; clients never plan for themselves.
 
     `rate` is in ticks per second of wall clock; `step_version` changes when some state would step to other
-    bits.
+    bits. Hashes are told of the states whose number is a multiple of `hash_every`.
     """
 
     kind: ClassVar[str] = "about"
@@ -28,5 +28,6 @@ class About(Message):
     model: dict[str, Any]
     rate: Annotated[float, Field(gt=0, le=10_000)]
     snapshot_every: Annotated[int, Field(ge=1)]
+    hash_every: Annotated[int, Field(ge=1)]
     history_ticks: Annotated[int, Field(ge=1)]
     tick: TickNumber
