@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import partial
 
-from kuglice.lab.bench import copying, small
+from kuglice.lab.bench import copying, million, small
 from kuglice.lab.bench.case import Case, Contender, stepping
 from kuglice.lab.peers import PEERS
 from kuglice.lab.running import Make, making
@@ -46,7 +46,8 @@ def cases(*, peers: bool, quick: bool, repeats: int) -> list[Case]:
         case = Case(name, lambda: {}, repeats)
         case.make = partial(_scene_case, name, text, peers, case.left_out)
         found.append(case)
-    found += [Case(name, make, repeats) for name, make in {**small.CASES, **copying.CASES}.items()]
+    others = {**small.CASES, **copying.CASES, **({} if quick else million.CASES)}
+    found += [Case(name, make, repeats) for name, make in others.items()]
     return found
 
 

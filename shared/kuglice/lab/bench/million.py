@@ -1,0 +1,45 @@
+"""A million balls on two threads, with the state hash of every second."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+
+from kuglice.lab.bench.case import Contender
+from kuglice.lab.stopwatch import Work
+from kuglice.model import Model
+from kuglice.scenes import gas
+from kuglice.world import World
+
+__all__ = ["CASES"]
+
+BALLS = 1_000_000
+TICKS = 60
+WARM = 5
+
+
+def _contenders(threads: int) -> Mapping[str, Contender]:
+    scene = gas(n=BALLS)
+    return {
+        contacts: Contender(
+            _second(World(scene, Model(integrator="verlet", contacts=contacts), threads=threads)),
+            TICKS,
+            "ns per tick",
+        )
+        for contacts in ("overlap", "event")
+    }
+
+
+def _second(world: World) -> Callable[[], Work]:
+    world.run(WARM)
+
+    def work() -> int:
+        world.run(TICKS)
+        return world.state_hash
+
+    return lambda: work
+
+
+CASES: dict[str, Callable[[], Mapping[str, Contender]]] = {
+    f"gas {BALLS:,}, {TICKS} ticks and a hash, 2 threads": partial(_contenders, 2)
+}
