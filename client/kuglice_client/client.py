@@ -7,7 +7,7 @@ import math
 import threading
 import time
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Self
 
 from kuglice import World
@@ -16,11 +16,14 @@ from kuglice.inputs import Input
 from kuglice.protocol import DEFAULT_ENDPOINT, PART_BYTES, Ack, Assembly, Keys, Tick, check_name
 from kuglice_client.bots import BOTS, Sight
 from kuglice_client.clock import Clock
+from kuglice_client.correction import Correction
+from kuglice_client.feel import Feel
 from kuglice_client.follow import Follower
 from kuglice_client.healing import Healing
 from kuglice_client.join import Joined, find_world, join
 from kuglice_client.link import Link
 from kuglice_client.outbox import Outbox
+from kuglice_client.pinging import Pinging
 from kuglice_client.prediction import Prediction
 from kuglice_client.reconcile import Reconciler
 from kuglice_client.summary import figures, summarise
@@ -41,6 +44,7 @@ LAG_SECONDS = 2.0
 CONFIRM_SECONDS = 0.05
 SNAPSHOT_BYTES_PER_BALL = 64
 KNOWN_EPOCHS = 64
+MAX_INPUT_DELAY = 30
 
 
 @dataclass(frozen=True)
@@ -48,7 +52,8 @@ class ClientSettings:
     """`name`: who we are, None for a spectator. `bot`: an entry of BOTS that plays for us.
 
     `wait`: seconds to keep trying to join. `lose`: called with the number of each tick message; those for
-    which it says True are thrown away on arrival, to see them heal.
+    which it says True are thrown away on arrival, to see them heal. `input_delay`: ticks between acting and
+    the effect, for those who prefer fewer corrections of others to acting at once.
     """
 
     connect: tuple[str, ...] = (DEFAULT_ENDPOINT,)
@@ -57,6 +62,7 @@ class ClientSettings:
     bot: str | None = None
     wait: float = 10.0
     lose: Callable[[int], bool] | None = None
+    input_delay: int = 0
 
     def __post_init__(self) -> None:
         if self.name is not None:
@@ -65,6 +71,10 @@ class ClientSettings:
             raise ProtocolError(f"bot {self.bot!r}: there is none of that name, only {', '.join(BOTS)}")
         if self.bot is not None and self.name is None:
             raise ProtocolError(f"bot {self.bot!r}: needs a client name to play under")
+        if not 0 <= self.input_delay <= MAX_INPUT_DELAY:
+            raise ProtocolError(
+                f"input delay {self.input_delay}: must be within 0 and {MAX_INPUT_DELAY} ticks"
+            )
 
 
 class Client:
@@ -76,6 +86,9 @@ class Client:
         self.settings = settings
         self.stop = stop if stop is not None else threading.Event()
         self.totals = Totals()
+        self.correction = Correction()
+        self.feel = Feel()
+        self._alpha = 0.0
         self.link = Link(settings.connect, deadline=deadline, stop=self.stop)
         try:
             world = settings.world or find_world(self.link, deadline=deadline, stop=self.stop)
@@ -108,7 +121,9 @@ class Client:
         return None if self.outbox is None else dict(self.prediction.world.players).get(self.outbox.number)
 
     def act(self, given: Input) -> None:
-        """Do something at the next tick that is predicted; client and sequence number are filled in here.
+        """Do something at the next tick that is predicted, or `input_delay` ticks later.
+
+        Client and sequence number are filled in here.
 
         Raises JoinError for a spectator, and when too much is unacknowledged to add more.
         """
@@ -116,8 +131,10 @@ class Client:
             raise JoinError("a spectator cannot act: join with a name")
         if self.outbox.full:
             raise JoinError("too many inputs are unacknowledged: the server does not answer")
-        tick = self.prediction.world.tick
-        self.prediction.act(self.outbox.add(given, tick), tick)
+        tick = self.prediction.world.tick + self.settings.input_delay
+        mine = self.outbox.add(given, tick)
+        self.prediction.act(mine, tick)
+        self.feel.acted(mine.sequence, tick, time.monotonic())
 
     def turn(self, now: float) -> float:
         """Take in what came, predict up to now, send.
@@ -127,6 +144,9 @@ class Client:
         self._receive(now)
         if self.healing.turn(now):
             self.prediction.distrust()
+        round_trip = self._pinging.turn(now, self.confirmed.tick - 1)
+        if round_trip is not None:
+            self.clock.answered(round_trip)
         target = self.clock.target(now)
         # Who has not even confirmed what is known has no time for guesses.
         if self._confirm(now):
@@ -135,7 +155,10 @@ class Client:
             message = self.outbox.message(now, self.confirmed.tick)
             if message is not None:
                 self.link.send(message)
-        return max(0.0, min(1.0, target - self.prediction.world.tick))
+        self._alpha = max(0.0, min(1.0, target - self.prediction.world.tick))
+        self.correction.frame(now, self.prediction.world.count)
+        self.feel.shown(self.prediction.world.tick, time.monotonic())
+        return self._alpha
 
     def run(
         self,
@@ -172,7 +195,8 @@ class Client:
 
         wrong = self.reconciler.wrong_since is not None
         state = HashState(self.confirmed.state_hash, self.confirmed.tick, "different" if wrong else "equal")
-        return interpolate(self.prediction.previous, self.prediction.world, alpha, state, nodes=nodes)
+        moment = interpolate(self.prediction.previous, self.prediction.world, alpha, state, nodes=nodes)
+        return replace(moment, position=self.correction.drawn(moment.id, moment.position))
 
     def close(self, timeout: float = 5.0) -> bool:
         """Leave. False if Zenoh did not finish within `timeout` seconds."""
@@ -196,6 +220,9 @@ class Client:
         self.reconciler = Reconciler(self.follower, snapshot_every=about.snapshot_every)
         self.prediction = Prediction(joined.world, limit=max(4, round(PREDICTED_SECONDS * about.rate)))
         self.clock = Clock(rate=about.rate, tick=about.tick, now=now, round_trip=joined.round_trip)
+        self._pinging = Pinging(self.link, self._keys, epoch=joined.epoch, now=now)
+        self.correction.clear()
+        self.feel.entered()
         self.healing = Healing(
             self.link, self._keys, epoch=joined.epoch, follower=self.follower, reconciler=self.reconciler
         )
@@ -247,6 +274,7 @@ class Client:
 
     def _heard(self, message: Tick, now: float) -> None:
         self._heard_at, self._stalled = now, False
+        self.feel.heard(now)
         self.clock.heard(message.end, now)
         if self.outbox is not None:
             self._answered(message.outcomes(self.outbox.number), self.outbox)
@@ -275,9 +303,18 @@ class Client:
             if time.monotonic() - now > CONFIRM_SECONDS:
                 done = False
                 break
-        self.prediction.reconcile(self.confirmed)
+        self._reconcile()
+        if self.follower.behind == 0:
+            self.feel.caught_up(time.monotonic())
         self._note_lag()
         return done
+
+    def _reconcile(self) -> None:
+        prediction = self.prediction
+        before = prediction.drawn(self._alpha) if prediction.wrong else None
+        if prediction.reconcile(self.confirmed) and before is not None:
+            after = prediction.drawn(self._alpha)
+            self.correction.moved(*before, *after, prediction.world.radius)
 
     def _predict(self, tick: int) -> None:
         while self.prediction.world.tick < tick and self.prediction.may_step(self.confirmed):

@@ -15,6 +15,9 @@ SLIP = 0.02
 STALL_SECONDS = 0.5
 EARLY_TICKS = 1
 REPORTS = 32
+ARRIVALS = 256
+TRIPS = 8
+JITTER_QUANTILE = 0.95
 
 
 class Clock:
@@ -27,6 +30,8 @@ class Clock:
         self._lead = 2.0 + round_trip * rate
         self._wanted_lead = self._lead
         self._slewed_at = now
+        self._trips: deque[float] = deque([round_trip], maxlen=TRIPS)
+        self._late: deque[float] = deque(maxlen=ARRIVALS)
         self._early: deque[int] = deque(maxlen=REPORTS)
         self._last = 0.0
         self.snaps = 0
@@ -35,6 +40,21 @@ class Clock:
     def lead(self) -> float:
         """Ticks that the client runs ahead of the stream as it hears it."""
         return self._lead
+
+    @property
+    def round_trip(self) -> float:
+        """Seconds; the shortest of the last queries, since whatever waits only adds."""
+        return min(self._trips)
+
+    @property
+    def jitter(self) -> float:
+        """Seconds after the earliest possible moment by which 95 % of the tick messages came."""
+        late = sorted(self._late)
+        return late[int(JITTER_QUANTILE * (len(late) - 1))] if late else 0.0
+
+    def answered(self, round_trip: float) -> None:
+        """A query took that many seconds."""
+        self._trips.append(round_trip)
 
     def heard(self, next_tick: int, now: float) -> None:
         """The stream told everything before `next_tick`, just now."""
@@ -47,6 +67,7 @@ class Clock:
             self._origin = origin
         else:
             self._origin += min(late, SLIP * (now - self._heard_at))
+            self._late.append(late)
         self._heard_at = now
 
     def reported(self, early: int) -> None:

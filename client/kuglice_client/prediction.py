@@ -8,14 +8,19 @@ is copied and run forward.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kuglice import World
 from kuglice._core import INPUT_BYTES
+from kuglice.blending import blend
 from kuglice.errors import StepError
 from kuglice.inputs import Input, pack
 from kuglice.protocol import StretchedTick
 
 __all__ = ["Prediction"]
+
+Floats = NDArray[np.float64]
+Ids = NDArray[np.uint64]
 
 
 class Prediction:
@@ -94,6 +99,16 @@ class Prediction:
         self.ticks_rerun += self.world.tick - confirmed.tick
         self.worst_correction = max(self.worst_correction, self._correction(ids, positions))
         return True
+
+    @property
+    def wrong(self) -> bool:
+        """Whether a guess is known to have been wrong, and `reconcile` has work to do."""
+        return self._wrong
+
+    def drawn(self, alpha: float) -> tuple[Ids, Floats]:
+        """Ids and positions (n, 2), `alpha` of the way from the previous state to the present one."""
+        before, now = self.previous, self.world
+        return now.id, blend(before.id, before.position, now.id, now.position, alpha)
 
     def distrust(self) -> None:
         """The confirmed world was replaced: run forward again from it, whatever was predicted."""

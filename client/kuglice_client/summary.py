@@ -67,4 +67,31 @@ def summarise(client: Client, *, seconds: float) -> dict[str, Any]:
         "bytes_per_second_snapshots": rates.get("snapshots", 0.0),
         "bytes_per_second_sent": rates["sent"],
         "bytes_joining": traffic.received["joining"],
+        "feel": _feel(client, summed, seconds),
+        "traffic": {"payload_down": rates["received"], "payload_up": rates["sent"]},
+    }
+
+
+def _feel(client: Client, summed: dict[str, Figure], seconds: float) -> dict[str, Any]:
+    feel, correction, clock = client.feel, client.correction, client.clock
+    accepted, rollbacks = summed["inputs_accepted"], summed["rollbacks"]
+    return {
+        "inputs": feel.inputs,
+        "late_per_1000": 1000 * summed["inputs_late"] / accepted if accepted else None,
+        "own_input_delay_ms": feel.own_input_delay(),
+        "rollbacks_per_second": rollbacks / max(seconds, 1e-9),
+        "rollback_depth": {
+            "mean": summed["ticks_rerun"] / rollbacks if rollbacks else 0.0,
+            "max": summed["deepest_rollback"],
+        },
+        "correction_radii": {
+            "mean": correction.mean,
+            "worst": correction.worst,
+            "snapped_balls": correction.snaps,
+        },
+        "lead_ticks": clock.lead,
+        "round_trip_ms": 1000 * clock.round_trip,
+        "jitter_ms": 1000 * clock.jitter,
+        "join_seconds": client.joined_after,
+        "recovery_seconds": max(feel.recovery) if feel.recovery else None,
     }

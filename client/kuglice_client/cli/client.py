@@ -75,6 +75,9 @@ def client(
     lose: Annotated[
         float, typer.Option(min=0.0, max=0.99, help="Share of tick messages to throw away, to see them heal.")
     ] = 0.0,
+    input_delay: Annotated[
+        int, typer.Option(min=0, help="Ticks between an own input and its effect; less lead is needed.")
+    ] = 0,
     summary_json: Annotated[
         Path | None, typer.Option(help="Write the closing figures to this file too.")
     ] = None,
@@ -97,6 +100,7 @@ def client(
         bot=bot,
         wait=wait,
         lose=(lambda _: random.random() < lose) if lose else None,
+        input_delay=input_delay,
     )
     look = _Look(fps, _pixels(size), style, tuple(overlay or ("tick",)), trails, still_every)
     film_settings = _film_settings(render, look)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from rich.console import Console
@@ -25,12 +25,21 @@ def print_figures(title: str, columns: Mapping[str, Mapping[str, Any]], *, as_js
     table.add_column("")
     for heading in columns:
         table.add_column(heading, justify="right")
+    columns = {heading: dict(_flat(column)) for heading, column in columns.items()}
     figures = dict.fromkeys(figure for column in columns.values() for figure in column)
     for figure in figures:
         table.add_row(
             figure.replace("_", " "), *(_shown(figure, column.get(figure, "")) for column in columns.values())
         )
     Console().print(table)
+
+
+def _flat(column: Mapping[str, Any], within: str = "") -> Iterator[tuple[str, Any]]:
+    for figure, value in column.items():
+        if isinstance(value, Mapping):
+            yield from _flat(value, f"{within}{figure} ")
+        else:
+            yield f"{within}{figure}", value
 
 
 def _shown(figure: str, value: object) -> str:
