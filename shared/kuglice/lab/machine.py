@@ -52,7 +52,7 @@ def this_machine() -> Machine:
         cores=os.cpu_count() or 1,
         system=f"{platform.system()} {platform.machine()}",
         versions=versions,
-        flags=f"1 thread unless a case says more, f64, release build, RUSTFLAGS={os.environ.get('RUSTFLAGS') or 'none'}",
+        flags=f"1 thread if a case says no more, f64, release, RUSTFLAGS={os.environ.get('RUSTFLAGS') or 'none'}",
         date=f"{datetime.now(UTC):%Y-%m-%d %H:%M} UTC, load {_load()}",
     )
 
