@@ -207,7 +207,8 @@ impl Balls {
             .filter(|&index| self.id[index] == id)
     }
 
-    /// Moves the balls in memory: the one from index `order[i]` is at index i afterwards. `spare` lends its memory.
+    /// Moves the balls in memory: the one from index `order[i]` is at index i afterwards. `spare` lends its memory, and is
+    /// no whole copy of anything afterwards.
     pub(crate) fn arrange(&mut self, order: &[u32], spare: &mut Balls) {
         debug_assert_eq!(order.len(), self.len());
         rearrange(&mut self.position, &mut spare.position, order);
@@ -218,6 +219,8 @@ impl Balls {
             rearrange(&mut self.mass, &mut spare.mass, order);
         }
         self.order.moved(spare.order.invert(order));
+        // Its radii and masses are those of another time: nobody may take them for what a common shape promises.
+        spare.uniform = None;
     }
 
     /// Whether some ball is fixed.
