@@ -1,11 +1,8 @@
 //! The balls, as a structure of arrays. Their order in memory means nothing: see [`order`](crate::order).
 
 use crate::order::Order;
-use crate::team::Team;
+use crate::team::{GRAIN, Team};
 use crate::{Error, Vec2};
-
-/// Balls that one piece of work looks at, at least.
-const GRAIN: usize = 1024;
 
 /// Radius and mass that all balls share; where there is one, hot loops read neither array.
 #[derive(Clone, Copy, Debug, PartialEq)]

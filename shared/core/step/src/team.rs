@@ -2,12 +2,15 @@
 //! every piece of work writes to places of its own, and what pieces return is combined in the order of the pieces.
 
 use std::ops::Range;
+#[cfg(feature = "threads")]
 use std::sync::Arc;
 
 use crate::Error;
 
 /// Most threads of one world.
 pub const MOST_THREADS: usize = 256;
+/// Balls that one piece of work takes, at least: for fewer, handing it over costs more than doing it.
+pub(crate) const GRAIN: usize = 1024;
 /// Pieces per thread, so that one that is held up leaves something for the others to take over.
 const PIECES: usize = 4;
 
@@ -77,8 +80,6 @@ divide_together!(A, B, C, D);
 pub struct Team {
     #[cfg(feature = "threads")]
     pool: Option<Arc<rayon::ThreadPool>>,
-    #[cfg(not(feature = "threads"))]
-    pool: Option<Arc<()>>,
 }
 
 impl Team {

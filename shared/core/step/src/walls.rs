@@ -1,9 +1,8 @@
 //! The walls of the box.
 
+use crate::team::GRAIN;
 use crate::{Balls, Counters, Rules, Team, Vec2};
 
-/// Balls that one piece of work looks at, at least.
-const GRAIN: usize = 1024;
 /// Balls that are passed over together.
 const GROUP: usize = 16;
 

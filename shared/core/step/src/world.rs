@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::broadphase::{Broadphase, Pair};
 use crate::contacts::{Contacts, Pairs, Substep};
 use crate::force::{Field, HeldNow};
+use crate::team::GRAIN;
 use crate::{Error, Input, Model, NewBall, Rules, State, Team, Vec2, apply, energy, hash, snapshot};
 
 /// A simulation that can be stepped, copied, saved and restored.
@@ -22,8 +23,6 @@ pub struct World {
     team: Team,
 }
 
-/// Balls that one piece of work copies, at least.
-const GRAIN: usize = 1024;
 /// Balls that are fewer than this stay in id order: the nearest cache holds them all.
 const FEW_BALLS: usize = 2048;
 /// Ticks after which neighbours have drifted so far apart in memory that arranging them pays.

@@ -52,6 +52,17 @@ pub(super) fn beyond(
     beyond
 }
 
+/// What the distances of the discs from `start` on are compared with: `own` with the reach of each, or as it is where
+/// all share theirs.
+#[inline(always)]
+pub(super) fn sums<const EACH: bool>(reaches: &[f32], start: usize, own: f32) -> [f32; LANES] {
+    if EACH {
+        lanes_at(reaches, start).map(|reach| own + reach)
+    } else {
+        [own; LANES]
+    }
+}
+
 /// Whether all of two times as many lanes are beyond.
 #[inline(always)]
 pub(super) fn all_beyond(first: [u32; LANES], second: [u32; LANES]) -> bool {

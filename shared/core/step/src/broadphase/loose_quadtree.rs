@@ -236,7 +236,7 @@ impl Broadphase for LooseQuadtree {
             let sum = reach + far;
             (center - other).square() <= sum * sum
         };
-        let across = self.levels.finest().across(center);
+        let (across, narrow) = (self.levels.finest().across(center), self.scale.probing(reach));
         for level in self.levels.all().iter().filter(|level| level.population > 0) {
             for run in level.runs(center, reach) {
                 let (start, end) = (self.offsets[run.start] as usize, self.offsets[run.end] as usize);
@@ -247,20 +247,11 @@ impl Broadphase for LooseQuadtree {
                     }
                 };
                 match self.same {
-                    Some(same) => Probe::<false> {
-                        sorted: &self.sorted,
-                        x: across.x as f32,
-                        y: across.y as f32,
-                        reach: self.scale.probing(reach) + self.scale.probed(same),
+                    Some(same) => {
+                        let sum = narrow + self.scale.probed(same);
+                        Probe::<false>::at(&self.sorted, across, sum).each(start..end, &mut show);
                     }
-                    .each(start..end, &mut show),
-                    None => Probe::<true> {
-                        sorted: &self.sorted,
-                        x: across.x as f32,
-                        y: across.y as f32,
-                        reach: self.scale.probing(reach),
-                    }
-                    .each(start..end, &mut show),
+                    None => Probe::<true>::at(&self.sorted, across, narrow).each(start..end, &mut show),
                 }
                 self.relocated.in_cells(run, |index, other, far| {
                     if touches(other, far) {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::lanes::{LANES, all_beyond, beyond, lanes_at};
+use super::lanes::{LANES, all_beyond, beyond, lanes_at, sums};
 use super::sorted::Sorted;
 
 /// How the cells of a level lie in the table of offsets.
@@ -39,35 +39,15 @@ pub(super) fn some_near<const EACH: bool>(
     for (bit, (slot, &cell)) in slots.clone().zip(&sorted.cell[slots]).enumerate() {
         let (beside, above) = row.runs(slot, cell);
         let own = if EACH { reaches[slot] + reach } else { reach };
-        let (here, this) = ((x[slot], y[slot]), (beside.start, above.start));
+        let (from_x, from_y) = (x[slot], y[slot]);
+        let [first, second] = [beside.start, above.start].map(|start| {
+            let sums = sums::<EACH>(reaches, start, own);
+            beyond(lanes_at(x, start), lanes_at(y, start), from_x, from_y, &sums)
+        });
         // The lanes behind a run belong to cells further off, where next to nothing is near.
-        let none = all_beyond(
-            beyond(
-                lanes_at(x, this.0),
-                lanes_at(y, this.0),
-                here.0,
-                here.1,
-                &sums::<EACH>(reaches, this.0, own),
-            ),
-            beyond(
-                lanes_at(x, this.1),
-                lanes_at(y, this.1),
-                here.0,
-                here.1,
-                &sums::<EACH>(reaches, this.1, own),
-            ),
-        );
+        let none = all_beyond(first, second);
         let many = (beside.end - beside.start > LANES) | (above.end - above.start > LANES);
         some |= u64::from(!none | many) << bit;
     }
     some
-}
-
-#[inline(always)]
-fn sums<const EACH: bool>(reaches: &[f32], start: usize, own: f32) -> [f32; LANES] {
-    if EACH {
-        lanes_at(reaches, start).map(|reach| own + reach)
-    } else {
-        [own; LANES]
-    }
 }

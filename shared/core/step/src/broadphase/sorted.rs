@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use super::lanes::{LANES, beyond, lanes_at, lanes_of, near};
+use super::lanes::{LANES, beyond, lanes_at, lanes_of, near, sums};
+use crate::Vec2;
 
 /// The discs, sorted by cell; the arrays go on for a few lanes behind the last disc.
 #[derive(Default)]
@@ -29,10 +30,10 @@ impl Sorted {
 
 /// One disc, compared with others: those have a reach each, or all the same, which is then in `reach`.
 pub(super) struct Probe<'a, const EACH: bool> {
-    pub(super) sorted: &'a Sorted,
-    pub(super) x: f32,
-    pub(super) y: f32,
-    pub(super) reach: f32,
+    sorted: &'a Sorted,
+    x: f32,
+    y: f32,
+    reach: f32,
 }
 
 impl<'a, const EACH: bool> Probe<'a, EACH> {
@@ -47,14 +48,21 @@ impl<'a, const EACH: bool> Probe<'a, EACH> {
         }
     }
 
+    /// One that need not be among them; `across` is where it is in cells of the finest level.
+    #[inline(always)]
+    pub(super) fn at(sorted: &'a Sorted, across: Vec2, reach: f32) -> Probe<'a, EACH> {
+        Probe {
+            sorted,
+            x: across.x as f32,
+            y: across.y as f32,
+            reach,
+        }
+    }
+
     /// For each of the discs from `start` on, bits of which the highest is set if it is not near this one.
     #[inline(always)]
     pub(super) fn beyond(&self, start: usize) -> [u32; LANES] {
-        let sums = if EACH {
-            lanes_at(&self.sorted.reach, start).map(|reach| self.reach + reach)
-        } else {
-            [self.reach; LANES]
-        };
+        let sums = sums::<EACH>(&self.sorted.reach, start, self.reach);
         beyond(
             lanes_at(&self.sorted.x, start),
             lanes_at(&self.sorted.y, start),

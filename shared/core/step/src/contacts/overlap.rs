@@ -15,15 +15,15 @@ impl Contacts for Overlap {
         let balls = &mut *substep.balls;
         (substep.integrator.advance)(balls, substep.field, substep.time, substep.dt, substep.team);
         self.pairs.find(balls, substep.broadphase, substep.team);
-        let shares = SharesOf::new(balls, substep.rules.restitution());
+        let alike = SharesOf::new(balls, substep.rules.restitution());
         let hit = |balls: &Balls, first: usize, second: usize| {
             let (p1, p2) = (balls.position[first], balls.position[second]);
             let (mut v1, mut v2) = (balls.velocity[first], balls.velocity[second]);
-            let reach = shares.reach(balls, first, second);
+            let reach = alike.reach(balls, first, second);
             if (p1 - p2).square() >= reach * reach {
                 return None;
             }
-            let shares = shares.pair(balls, first, second)?;
+            let shares = alike.pair(balls, first, second)?;
             exchange(normal(p1, p2), shares, &mut v1, &mut v2).then_some([v1, v2])
         };
         let collisions = self

@@ -6,11 +6,8 @@ mod symplectic_euler;
 mod verlet;
 
 use crate::force::{Acceleration, Body, Field};
-use crate::team::Team;
+use crate::team::{GRAIN, Team};
 use crate::{Balls, Vec2};
-
-/// Balls that one piece of work moves, at least.
-const GRAIN: usize = 1024;
 
 /// A scheme moves one ball over `dt` seconds.
 trait Scheme {

@@ -6,10 +6,8 @@
 
 use super::rest::{Support, Supports};
 use crate::force::Body;
+use crate::team::GRAIN;
 use crate::{Balls, Team, Vec2};
-
-/// Balls that one piece of work moves, at least.
-const GRAIN: usize = 1024;
 
 /// The part of an acceleration below which what contacts leave of it is rounding.
 const ROUNDING: f64 = 1e-9;
