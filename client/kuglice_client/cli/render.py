@@ -12,10 +12,10 @@ from typing import Annotated
 import typer
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-from kuglice import _core
 from kuglice.cli.figures import print_figures
 from kuglice.cli.logs import STDERR
 from kuglice.cli.stop import stop_on_signals
+from kuglice.cli.threads import Threads
 from kuglice.errors import PictureError
 from kuglice.scenes import find
 from kuglice.world import World
@@ -40,10 +40,7 @@ def render(  # noqa: PLR0917 - options
         ),
     ],
     seconds: Annotated[float, typer.Option(help="How much of the scene, in its own time.")] = 10.0,
-    threads: Annotated[
-        int,
-        typer.Option(help="Threads that share the work of a step; same bits.", min=1, max=_core.MOST_THREADS),
-    ] = 1,
+    threads: Threads = 1,
     fps: Annotated[float, typer.Option(help="Frames per second.")] = 30.0,
     speed: Annotated[float, typer.Option(help="Seconds of the scene per second of the film.")] = 1.0,
     style: Annotated[str, typer.Option(help=f"How balls look: {', '.join(STYLES)}.")] = "discs",

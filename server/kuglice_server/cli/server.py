@@ -11,10 +11,11 @@ from typing import Annotated, Any
 import typer
 from rich.status import Status
 
-from kuglice import _core, scenes
+from kuglice import scenes
 from kuglice.cli.figures import print_figures
 from kuglice.cli.logs import STDERR, log_to_stderr
 from kuglice.cli.stop import stop_on_signals
+from kuglice.cli.threads import Threads
 from kuglice.protocol import DEFAULT_ENDPOINT
 from kuglice_server.server import Server, ServerSettings
 
@@ -56,10 +57,7 @@ def server(
         ),
     ] = None,
     record: Annotated[Path | None, typer.Option(help="Write a replay file.")] = None,
-    threads: Annotated[
-        int,
-        typer.Option(help="Threads that share the work of a step; same bits.", min=1, max=_core.MOST_THREADS),
-    ] = 1,
+    threads: Threads = 1,
     seconds: Annotated[
         float | None, typer.Option(min=0.0, help="Stop after this long. [default: on SIGINT or SIGTERM]")
     ] = None,
