@@ -7,6 +7,7 @@ from types import ModuleType as _ModuleType
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 from kuglice import errors, inputs, scenes
+from kuglice.ball_states import BallStates
 from kuglice.errors import KugliceError
 from kuglice.inputs import Attract, Input, Join, Kick, Leave, Remove, Spawn, Thrust
 from kuglice.model import Model
@@ -36,6 +37,7 @@ __all__ = [
     "Attract",
     "AttractForce",
     "Attractor",
+    "BallStates",
     "Balls",
     "Drag",
     "Force",

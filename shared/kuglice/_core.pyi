@@ -25,6 +25,10 @@ FORCES: dict[str, tuple[str, ...]]
 INPUT_KINDS: tuple[str, ...]
 """Index in this tuple = the kind byte of an input record."""
 INPUT_BYTES: int
+MOST_DEPTH: int
+"""Levels of a quadtree of regions, at the most."""
+MOST_SHAPES: int
+"""(radius, mass) in a table, at the most."""
 NO_BALL: int
 """Ball id of an input record that names no ball (a kick of one's own ball)."""
 
@@ -66,6 +70,30 @@ class World:
     def __new__(
         cls, rules: Rules, model: Model, *, position: Floats, velocity: Floats, radius: Floats, mass: Floats
     ) -> Self: ...
+    @staticmethod
+    def with_balls(
+        rules: Rules,
+        model: Model,
+        tick: int,
+        *,
+        id: Ids,
+        position: Floats,
+        velocity: Floats,
+        radius: Floats,
+        mass: Floats,
+    ) -> World:
+        """A world of some balls only, as they are known at `tick`; ids ascend."""
+
+    def replace(
+        self, gone: Ids, *, id: Ids, position: Floats, velocity: Floats, radius: Floats, mass: Floats
+    ) -> None:
+        """Take balls out, and put balls in or right; ids ascend."""
+
+    def hold(
+        self, players: Sequence[tuple[int, int | None]], held: Sequence[tuple[int, str, float, float, float]]
+    ) -> None:
+        """Make these all the players and held inputs that there are, in the order that the properties have."""
+
     @staticmethod
     def restore(rules: Rules, model: Model, data: bytes) -> World: ...
     def employ(self, threads: int) -> None:
@@ -146,6 +174,33 @@ class Lease:
     id: Ids
 
     def end(self) -> None: ...
+
+@final
+class Regions:
+    """Balls by node of a quadtree of fixed depth over a box, packed to few bytes each (core/regions).
+
+    A node is the number of its path from the root, two bits a level: 0 left bottom, 1 right bottom, 2 left top, 3
+    right top. Positions and velocities are rounded to whole quanta, in metres and metres per second; `shapes` are
+    (radius, mass) that both ends know. Raises ProtocolError.
+    """
+
+    def __new__(
+        cls,
+        *,
+        box: tuple[float, float, float, float],
+        depth: int,
+        position_quantum: float,
+        velocity_quantum: float,
+        shapes: Sequence[tuple[float, float]],
+    ) -> Self: ...
+    def node(self, position: Floats) -> NDArray[np.uint32]:
+        """(n,) nodes of points (n, 2); of one outside of the box the nearest."""
+
+    def pack(self, world: World, nodes: Sequence[int]) -> tuple[list[bytes], int]:
+        """The balls of each node, found in one pass over all; and how many were too far or fast to be told."""
+
+    def unpack(self, data: bytes, most: int) -> tuple[Ids, Floats, Floats, Floats, Floats]:
+        """id, position, velocity, radius, mass; ids ascend. ProtocolError for what `pack` did not make."""
 
 def recording(world: World, ticks: Sequence[bytes]) -> bytes:
     """A run as bytes that the example `rerun` of kuglice-step can make again: the world as it is, inputs per tick."""

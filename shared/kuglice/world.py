@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from kuglice import _core
+from kuglice.ball_states import BallStates, ids
 from kuglice.errors import LimitError, MissingExtraError, SnapshotError
 from kuglice.inputs import Input, pack
 from kuglice.model import Model
@@ -48,6 +49,38 @@ class World:
             mass=balls.mass,
         )
         self._employ(threads)
+
+    @classmethod
+    def with_balls(
+        cls, scene: Scene, tick: int, states: BallStates, model: Model | None = None, *, threads: int = 1
+    ) -> World:
+        """A world of some balls only, as somebody knows them at `tick`; the scene's own balls are not in it.
+
+        It runs the same step as the whole world, so it is a view of that as long as no other ball comes near.
+        Raises SceneError, naming the ball, for ids that do not ascend or are given twice, numbers that are
+        not finite, and a radius or mass that is not above 0.
+        """
+        chosen = plan(scene) if model is None else model
+        core = _core.World.with_balls(scene.rules(), chosen.core(), tick, **states.arrays())
+        made = cls._wrap(scene, chosen, core)
+        made._employ(threads)
+        return made
+
+    def replace(self, gone: ArrayLike, states: BallStates) -> None:
+        """Take the balls `gone` out, and put others in, or right where they are already here; ids ascend.
+
+        For those who are told states instead of inputs: no recording and no tick stream knows of it. Raises
+        SceneError as `with_balls`, and LentError while lent; the world then stays as it was.
+        """
+        self._core.replace(ids("gone", gone), **states.arrays())
+
+    def hold(
+        self,
+        players: Sequence[tuple[int, int | None]],
+        held: Sequence[tuple[int, str, float, float, float]],
+    ) -> None:
+        """Make these all that `players` and `held` say; raises InputError for what those could not say."""
+        self._core.hold(players, held)
 
     @classmethod
     def restore(cls, scene: Scene, data: bytes, model: Model | None = None, *, threads: int = 1) -> World:
@@ -242,6 +275,10 @@ class World:
     def held(self) -> list[tuple[int, str, float, float, float]]:
         """Inputs being held: (client, "thrust" or "attract", x, y, strength), by client."""
         return self._core.held
+
+    def regions(self, packer: _core.Regions, nodes: Sequence[int]) -> tuple[list[bytes], int]:
+        """The balls in each of the packer's `nodes`, packed; and how many balls could not be told."""
+        return packer.pack(self._core, nodes)
 
     def overlapping(self) -> Ids:
         """(k, 2) ids of all pairs that overlap now, sorted."""

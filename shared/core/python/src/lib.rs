@@ -4,9 +4,11 @@ mod errors;
 mod lease;
 mod model;
 mod raster;
+mod regions;
 mod rules;
 mod world;
 
+use kuglice_regions::{MOST_DEPTH, MOST_SHAPES};
 use kuglice_step::{
     INPUT_BYTES, InputKind, MOST_THREADS, NO_BALL, STEP_VERSION, broadphase, contacts, force, integrator,
     random,
@@ -58,10 +60,13 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("INPUT_BYTES", INPUT_BYTES)?;
     module.add("MOST_THREADS", MOST_THREADS)?;
     module.add("NO_BALL", NO_BALL)?;
+    module.add("MOST_DEPTH", MOST_DEPTH)?;
+    module.add("MOST_SHAPES", MOST_SHAPES)?;
     module.add_class::<rules::Rules>()?;
     module.add_class::<model::Model>()?;
     module.add_class::<world::World>()?;
     module.add_class::<lease::Lease>()?;
+    module.add_class::<regions::Regions>()?;
     module.add_function(wrap_pyfunction!(random_uniform, module)?)?;
     module.add_function(wrap_pyfunction!(world::recording, module)?)?;
     raster::register(module)

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use kuglice_step::{Balls, NewBall, Recording, Team, Vec2, read_inputs};
+use kuglice_step::{Balls, Held, HeldKind, NewBall, Player, Recording, Team, Vec2, read_inputs};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -12,6 +12,15 @@ use crate::errors::{named, raise};
 use crate::lease::Lease;
 use crate::model::Model;
 use crate::rules::Rules;
+
+const HELD_KINDS: [HeldKind; 2] = [HeldKind::Thrust, HeldKind::Attract];
+
+fn held_name(kind: HeldKind) -> &'static str {
+    match kind {
+        HeldKind::Thrust => "thrust",
+        HeldKind::Attract => "attract",
+    }
+}
 
 /// A state and the step that moves it.
 #[pyclass(module = "kuglice._core")]
@@ -73,6 +82,63 @@ fn vectors<'py>(py: Python<'py>, balls: &Balls, vectors: &[Vec2]) -> Bound<'py, 
     pairs_to_array(py, &rows)
 }
 
+fn new_balls(
+    py: Python<'_>,
+    position: &PyReadonlyArray2<'_, f64>,
+    velocity: &PyReadonlyArray2<'_, f64>,
+    radius: &PyReadonlyArray1<'_, f64>,
+    mass: &PyReadonlyArray1<'_, f64>,
+) -> PyResult<Vec<NewBall>> {
+    let count = radius.len();
+    for (name, shape) in [("position", position.shape()), ("velocity", velocity.shape())] {
+        if shape != [count, 2] {
+            return Err(named(
+                py,
+                "SceneError",
+                &format!("{name} has shape {shape:?}, it must be [{count}, 2]"),
+            ));
+        }
+    }
+    if mass.len() != count {
+        return Err(named(
+            py,
+            "SceneError",
+            &format!("mass has {} numbers, it must have {count}", mass.len()),
+        ));
+    }
+    let (position, velocity) = (position.as_array(), velocity.as_array());
+    let (radius, mass) = (radius.as_array(), mass.as_array());
+    let balls: Vec<NewBall> = (0..count)
+        .map(|i| NewBall {
+            position: Vec2::new(position[[i, 0]], position[[i, 1]]),
+            velocity: Vec2::new(velocity[[i, 0]], velocity[[i, 1]]),
+            radius: radius[i],
+            mass: mass[i],
+        })
+        .collect();
+    Ok(balls)
+}
+
+/// The same with an id for each.
+fn told_balls(
+    py: Python<'_>,
+    id: &PyReadonlyArray1<'_, u64>,
+    position: &PyReadonlyArray2<'_, f64>,
+    velocity: &PyReadonlyArray2<'_, f64>,
+    radius: &PyReadonlyArray1<'_, f64>,
+    mass: &PyReadonlyArray1<'_, f64>,
+) -> PyResult<Vec<(u64, NewBall)>> {
+    let balls = new_balls(py, position, velocity, radius, mass)?;
+    if id.len() != balls.len() {
+        return Err(named(
+            py,
+            "SceneError",
+            &format!("id has {} numbers, it must have {}", id.len(), balls.len()),
+        ));
+    }
+    Ok(id.as_array().iter().copied().zip(balls).collect())
+}
+
 #[pymethods]
 impl World {
     #[new]
@@ -86,35 +152,91 @@ impl World {
         radius: PyReadonlyArray1<'_, f64>,
         mass: PyReadonlyArray1<'_, f64>,
     ) -> PyResult<World> {
-        let count = radius.len();
-        for (name, shape) in [("position", position.shape()), ("velocity", velocity.shape())] {
-            if shape != [count, 2] {
-                return Err(named(
-                    py,
-                    "SceneError",
-                    &format!("{name} has shape {shape:?}, it must be [{count}, 2]"),
-                ));
-            }
-        }
-        if mass.len() != count {
-            return Err(named(
-                py,
-                "SceneError",
-                &format!("mass has {} numbers, it must have {count}", mass.len()),
-            ));
-        }
-        let (position, velocity) = (position.as_array(), velocity.as_array());
-        let (radius, mass) = (radius.as_array(), mass.as_array());
-        let balls: Vec<NewBall> = (0..count)
-            .map(|i| NewBall {
-                position: Vec2::new(position[[i, 0]], position[[i, 1]]),
-                velocity: Vec2::new(velocity[[i, 0]], velocity[[i, 1]]),
-                radius: radius[i],
-                mass: mass[i],
-            })
-            .collect();
+        let balls = new_balls(py, &position, &velocity, &radius, &mass)?;
         let world = kuglice_step::World::new(rules.inner.clone(), model.inner.clone(), &balls);
         world.map(World::own).map_err(|error| raise(py, &error))
+    }
+
+    #[staticmethod]
+    #[pyo3(signature = (rules, model, tick, *, id, position, velocity, radius, mass))]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "one array for each thing that is known of a ball"
+    )]
+    fn with_balls(
+        py: Python<'_>,
+        rules: &Rules,
+        model: &Model,
+        tick: u64,
+        id: PyReadonlyArray1<'_, u64>,
+        position: PyReadonlyArray2<'_, f64>,
+        velocity: PyReadonlyArray2<'_, f64>,
+        radius: PyReadonlyArray1<'_, f64>,
+        mass: PyReadonlyArray1<'_, f64>,
+    ) -> PyResult<World> {
+        let balls = told_balls(py, &id, &position, &velocity, &radius, &mass)?;
+        let world = kuglice_step::World::with_balls(rules.inner.clone(), model.inner.clone(), tick, &balls);
+        world.map(World::own).map_err(|error| raise(py, &error))
+    }
+
+    #[pyo3(signature = (gone, *, id, position, velocity, radius, mass))]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "one array for each thing that is known of a ball"
+    )]
+    fn replace(
+        &mut self,
+        py: Python<'_>,
+        gone: PyReadonlyArray1<'_, u64>,
+        id: PyReadonlyArray1<'_, u64>,
+        position: PyReadonlyArray2<'_, f64>,
+        velocity: PyReadonlyArray2<'_, f64>,
+        radius: PyReadonlyArray1<'_, f64>,
+        mass: PyReadonlyArray1<'_, f64>,
+    ) -> PyResult<()> {
+        self.check_not_lent(py)?;
+        let balls = told_balls(py, &id, &position, &velocity, &radius, &mass)?;
+        let gone: Vec<u64> = gone.as_array().iter().copied().collect();
+        self.inner
+            .replace(&gone, &balls)
+            .map_err(|error| raise(py, &error))
+    }
+
+    fn hold(
+        &mut self,
+        py: Python<'_>,
+        players: Vec<(u32, Option<u64>)>,
+        held: Vec<(u32, String, f64, f64, f64)>,
+    ) -> PyResult<()> {
+        self.check_not_lent(py)?;
+        let players: Vec<Player> = players
+            .into_iter()
+            .map(|(client, ball)| Player { client, ball })
+            .collect();
+        let held = held
+            .into_iter()
+            .map(|(client, kind, x, y, strength)| {
+                let kind = HELD_KINDS
+                    .into_iter()
+                    .find(|&known| held_name(known) == kind)
+                    .ok_or_else(|| {
+                        named(
+                            py,
+                            "InputError",
+                            &format!("held input of kind {kind:?}: there is none"),
+                        )
+                    })?;
+                Ok(Held {
+                    client,
+                    kind,
+                    vector: Vec2::new(x, y),
+                    strength,
+                })
+            })
+            .collect::<PyResult<Vec<Held>>>()?;
+        self.inner
+            .hold(&players, &held)
+            .map_err(|error| raise(py, &error))
     }
 
     #[staticmethod]
@@ -287,12 +409,8 @@ impl World {
 
     #[getter]
     fn held(&self) -> Vec<(u32, &'static str, f64, f64, f64)> {
-        let name = |kind| match kind {
-            kuglice_step::HeldKind::Thrust => "thrust",
-            kuglice_step::HeldKind::Attract => "attract",
-        };
         let held = self.inner.state().held.iter();
-        held.map(|h| (h.client, name(h.kind), h.vector.x, h.vector.y, h.strength))
+        held.map(|h| (h.client, held_name(h.kind), h.vector.x, h.vector.y, h.strength))
             .collect()
     }
 
