@@ -15,8 +15,10 @@ type Ids = NDArray[np.uint64]
 type Pixels = NDArray[np.uint8]
 
 STEP_VERSION: int
-MOST_THREADS: int
 """Changes when, and only when, some state would step to other bits than before."""
+BUILD: dict[str, str]
+"""What this module was built with and for: rustc, target, target_features, flags, opt_level."""
+MOST_THREADS: int
 INTEGRATORS: tuple[str, ...]
 CONTACTS: tuple[str, ...]
 BROADPHASES: tuple[str, ...]

@@ -14,7 +14,8 @@ from kuglice.version import VERSION
 
 __all__ = ["Machine", "this_machine"]
 
-NAMED = ("numpy", "scipy", "numba", "pymunk")
+VECTORS = ("sse4_2", "avx2", "fma", "bmi2", "avx512f")
+NAMED = ("numpy", "scipy", "numba", "pymunk", "eclipse-zenoh")
 
 
 @dataclass(frozen=True)
@@ -23,6 +24,8 @@ class Machine:
 
     processor: str
     cores: int
+    vectors: str
+    """The vector instructions that it has, used or not."""
     system: str
     versions: dict[str, str]
     flags: str
@@ -32,7 +35,12 @@ class Machine:
     def lines(self) -> list[str]:
         """For the footer of a picture and the head of a CSV."""
         listed = ", ".join(f"{name} {number}" for name, number in self.versions.items())
-        return [f"{self.processor}, {self.cores} cores, {self.system}", listed, f"{self.flags}; {self.date}"]
+        machine = f"{self.processor}, {self.cores} cores, {self.system}"
+        return [
+            f"{machine}, {self.vectors}" if self.vectors else machine,
+            listed,
+            f"{self.flags}; {self.date}",
+        ]
 
     def to_message(self) -> dict[str, object]:
         """Values that JSON knows."""
@@ -50,20 +58,42 @@ def this_machine() -> Machine:
     return Machine(
         processor=_processor(),
         cores=os.cpu_count() or 1,
+        vectors=_vectors(),
         system=f"{platform.system()} {platform.machine()}",
         versions=versions,
-        flags=f"1 thread if a case says no more, f64, release, RUSTFLAGS={os.environ.get('RUSTFLAGS') or 'none'}",
+        flags=_flags(),
         date=f"{datetime.now(UTC):%Y-%m-%d %H:%M} UTC, load {_load()}",
     )
 
 
-def _processor() -> str:
+def _flags() -> str:
+    """Of the compiled step, whatever the environment says now."""
+    build = _core.BUILD
+    return (
+        f"1 thread if a case says no more, f64, {build['rustc']}, {build['target']}"
+        f" with {build['target_features'] or 'no features'}, opt-level {build['opt_level']},"
+        f" RUSTFLAGS {build['flags'] or 'none'}"
+    )
+
+
+def _facts() -> dict[str, str]:
+    """What Linux says of the first processor."""
     try:
         text = Path("/proc/cpuinfo").read_text(encoding="utf-8")
     except OSError:
-        return platform.processor() or platform.machine()
+        return {}
     lines = [line.partition(":") for line in text.split("\n\n")[0].splitlines()]
-    facts = {name.strip(): value.strip() for name, _, value in lines}
+    return {name.strip(): value.strip() for name, _, value in lines}
+
+
+def _vectors() -> str:
+    """The vector instructions that the processor has, used or not."""
+    has = set(_facts().get("flags", "").split())
+    return " ".join(name for name in VECTORS if name in has)
+
+
+def _processor() -> str:
+    facts = _facts()
     name = facts.get("model name") or platform.processor() or platform.machine()
     clock = facts.get("cpu MHz")
     return f"{name} at {float(clock) / 1000:.1f} GHz" if clock and "GHz" not in name else name

@@ -32,10 +32,24 @@ fn random_uniform(
     PyArray1::from_iter(py, numbers)
 }
 
+/// What the module was built with and for; see build.rs.
+const BUILD: [(&str, &str); 5] = [
+    ("rustc", env!("KUGLICE_RUSTC")),
+    ("target", env!("KUGLICE_TARGET")),
+    ("target_features", env!("KUGLICE_TARGET_FEATURES")),
+    ("flags", env!("KUGLICE_FLAGS")),
+    ("opt_level", env!("KUGLICE_OPT_LEVEL")),
+];
+
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let py = module.py();
     module.add("STEP_VERSION", STEP_VERSION)?;
+    let build = PyDict::new(py);
+    for (name, fact) in BUILD {
+        build.set_item(name, fact)?;
+    }
+    module.add("BUILD", build)?;
     module.add(
         "INTEGRATORS",
         PyTuple::new(py, integrator::TABLE.iter().map(|entry| entry.name))?,

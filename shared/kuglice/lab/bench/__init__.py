@@ -2,5 +2,6 @@
 
 from kuglice.lab.bench.case import Case
 from kuglice.lab.bench.table import cases
+from kuglice.lab.bench.targets import judged
 
-__all__ = ["Case", "cases"]
+__all__ = ["Case", "cases", "judged"]

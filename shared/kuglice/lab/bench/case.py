@@ -1,17 +1,29 @@
-"""One case: contenders that take turns, and the unit in which their times are told."""
+"""One case: what is measured side by side, repeat by repeat, and told in one unit."""
 
 from __future__ import annotations
 
+import statistics
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+from kuglice.errors import KugliceError
 from kuglice.lab.rows import Row
-from kuglice.lab.running import CannotRunError, Make, Running
-from kuglice.lab.stopwatch import Prepare, Work, race
-from kuglice.scene import Scene
-from kuglice.world import World
+from kuglice.lab.running import CannotRunError
+from kuglice.lab.stopwatch import Prepare, race
 
-__all__ = ["Case", "Contender", "stepping"]
+__all__ = ["Case", "Contender", "Measure", "Samples", "raced"]
+
+
+@dataclass(frozen=True)
+class Samples:
+    """What one contender gave, repeat by repeat; less is better."""
+
+    values: tuple[float, ...]
+    unit: str
+
+
+Measure = Callable[[int], Mapping[str, Samples]]
+"""Of so many repeats, by contender; the first one is what the others are compared with."""
 
 
 @dataclass(frozen=True)
@@ -23,75 +35,51 @@ class Contender:
     unit: str = "ns per ball-step"
 
 
+def raced(make: Callable[[], Mapping[str, Contender]]) -> Measure:
+    """Contenders that take turns. They are made when their turn comes: large scenes do not wait in memory."""
+
+    def measure(repeats: int) -> Mapping[str, Samples]:
+        contenders = make()
+        timings = race({name: each.prepare for name, each in contenders.items()}, repeats)
+        return {
+            name: Samples(
+                tuple(1e9 * second / each.operations for second in timings[name].seconds), each.unit
+            )
+            for name, each in contenders.items()
+        }
+
+    return measure
+
+
 @dataclass
 class Case:
-    """A line-up. `make` builds it when its turn comes, so that large scenes do not wait in memory."""
+    """A line-up and its rows."""
 
     name: str
-    make: Callable[[], Mapping[str, Contender]]
+    measure: Measure
     repeats: int = 5
     left_out: list[str] = field(default_factory=list)
 
     def run(self) -> list[Row]:
-        """One row per contender, compared with the first one."""
-        contenders = self.make()
-        timings = race({name: each.prepare for name, each in contenders.items()}, self.repeats)
+        """One row per contender, compared with the first one; none, and the reason left, if it cannot run."""
         rows: list[Row] = []
-        for name, timing in timings.items():
-            each = contenders[name]
-            unit = 1e9 / each.operations
-            first = rows[0]["minimum"] if rows else timing.minimum * unit
+        try:
+            measured = self.measure(self.repeats)
+        except (CannotRunError, KugliceError) as reason:
+            self.left_out.append(f"all of it: {reason}")
+            return []
+        for name, samples in measured.items():
+            minimum = min(samples.values)
+            first = float(rows[0]["minimum"]) if rows else minimum
             rows.append(
                 {
                     "case": self.name,
                     "contender": name,
-                    "minimum": timing.minimum * unit,
-                    "median": timing.median * unit,
-                    "unit": each.unit,
-                    "relative": timing.minimum * unit / float(first),
-                    "repeats": timing.repeats,
+                    "minimum": minimum,
+                    "median": statistics.median(samples.values),
+                    "unit": samples.unit,
+                    "relative": minimum / first if first else 1.0,
+                    "repeats": len(samples.values),
                 }
             )
         return rows
-
-
-def stepping(
-    scene: Scene, makes: Mapping[str, Make], ticks: int, left_out: list[str]
-) -> dict[str, Contender]:
-    """Contenders that each run the same `ticks` from the same initial state in every round."""
-    found = {}
-    for name, make in makes.items():
-        try:
-            ready = _ready(scene, make, max(1, ticks // 4))
-        except CannotRunError as reason:
-            left_out.append(f"{name}: {reason}")
-            continue
-
-        def prepare(ready: Callable[[], Running] = ready) -> Work:
-            run = ready().run
-            return lambda: run(ticks)
-
-        found[name] = Contender(prepare, ticks * max(len(scene.balls), 1))
-    return found
-
-
-def _ready(scene: Scene, make: Make, warm: int) -> Callable[[], Running]:
-    """Gives the world as it is after a few ticks, which fill caches and scratch memory."""
-    world = make(scene)
-    if isinstance(world, World):
-        copy = world.clone()
-
-        def again() -> Running:
-            # Into the same memory: a fresh clone would pay for its first touch.
-            copy.copy_from(world)
-            copy.run(warm)
-            return copy
-
-        return again
-
-    def rebuilt() -> Running:
-        made = make(scene)
-        made.run(warm)
-        return made
-
-    return rebuilt

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from kuglice.lab.bench.case import Contender
+from kuglice.lab.bench.case import Contender, Measure, raced
 from kuglice.lab.stopwatch import Work
 from kuglice.model import Model
 from kuglice.scenes import gas
@@ -14,9 +14,12 @@ from kuglice.world import World
 
 __all__ = ["CASES"]
 
+BALLS = 10_000
 TIMES = 50
 ROLLBACK = 8
 """Ticks that a client runs again when the server's inputs differ from its prediction."""
+CLONED_BYTES = 60
+"""Per ball: position, velocity, radius, mass, id, place in memory."""
 
 
 def _again(call: Callable[[], object]) -> Callable[[], Work]:
@@ -27,20 +30,28 @@ def _again(call: Callable[[], object]) -> Callable[[], Work]:
     return lambda: work
 
 
+def _memcpy(bytes_: int) -> Callable[[], object]:
+    source, target = np.ones(bytes_, np.uint8), np.ones(bytes_, np.uint8)
+    return lambda: np.copyto(target, source)
+
+
 def _copies() -> Mapping[str, Contender]:
-    world = World(gas(n=10_000), Model(integrator="verlet", contacts="overlap"))
-    world.run(10)
+    world = World(gas(n=BALLS), Model(integrator="verlet", contacts="overlap"))
+    # On two threads from the same state: clones share the threads of what they were made from.
+    threaded = World(world.scene, world.model, threads=2)
+    for each in (world, threaded):
+        each.run(10)
     other = world.clone()
     data = world.snapshot()
-    source = np.frombuffer(data, np.uint8)
-    target = np.empty_like(source)
     calls: dict[str, Callable[[], object]] = {
-        f"memcpy of a snapshot's {len(data):,} bytes": lambda: np.copyto(target, source),
+        "memcpy of a snapshot's bytes": _memcpy(len(data)),
+        "memcpy of a world's bytes": _memcpy(CLONED_BYTES * BALLS),
         "copy_from": lambda: other.copy_from(world),
         "clone": world.clone,
         "snapshot": world.snapshot,
         "restore": lambda: World.restore(world.scene, data, world.model),
         "state_hash": lambda: world.state_hash,
+        "state_hash, 2 threads": lambda: threaded.state_hash,
     }
     return {name: Contender(_again(call), TIMES, "ns per call") for name, call in calls.items()}
 
@@ -48,7 +59,8 @@ def _copies() -> Mapping[str, Contender]:
 def _rollback() -> Mapping[str, Contender]:
     found = {}
     for contacts in ("overlap", "event"):
-        confirmed = World(gas(n=10_000), Model(integrator="verlet", contacts=contacts))
+        confirmed = World(gas(n=BALLS), Model(integrator="verlet", contacts=contacts))
+        confirmed.run(10)
         predicted = confirmed.clone()
 
         def work(predicted: World = predicted, confirmed: World = confirmed) -> None:
@@ -59,7 +71,7 @@ def _rollback() -> Mapping[str, Contender]:
     return found
 
 
-CASES: dict[str, Callable[[], Mapping[str, Contender]]] = {
-    "copies of 10,000": _copies,
-    f"rollback of {ROLLBACK} ticks, 10,000": _rollback,
+CASES: dict[str, Measure] = {
+    f"copies of {BALLS:,}": raced(_copies),
+    f"rollback of {ROLLBACK} ticks, {BALLS:,}": raced(_rollback),
 }

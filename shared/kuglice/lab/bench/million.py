@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import partial
 
-from kuglice.lab.bench.case import Contender
+from kuglice.lab.bench.case import Contender, Measure, raced
 from kuglice.lab.stopwatch import Work
 from kuglice.model import Model
 from kuglice.scenes import gas
@@ -14,15 +13,16 @@ from kuglice.world import World
 __all__ = ["CASES"]
 
 BALLS = 1_000_000
+THREADS = 2
 TICKS = 60
 WARM = 5
 
 
-def _contenders(threads: int) -> Mapping[str, Contender]:
+def _contenders() -> Mapping[str, Contender]:
     scene = gas(n=BALLS)
     return {
         contacts: Contender(
-            _second(World(scene, Model(integrator="verlet", contacts=contacts), threads=threads)),
+            _second(World(scene, Model(integrator="verlet", contacts=contacts), threads=THREADS)),
             TICKS,
             "ns per tick",
         )
@@ -40,6 +40,6 @@ def _second(world: World) -> Callable[[], Work]:
     return lambda: work
 
 
-CASES: dict[str, Callable[[], Mapping[str, Contender]]] = {
-    f"gas {BALLS:,}, {TICKS} ticks and a hash, 2 threads": partial(_contenders, 2)
+CASES: dict[str, Measure] = {
+    f"gas {BALLS:,}, {TICKS} ticks and a hash, {THREADS} threads": raced(_contenders)
 }

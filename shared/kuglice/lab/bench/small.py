@@ -1,10 +1,10 @@
-"""Few balls: what a tick costs when there is hardly anything to do, the call from Python included."""
+"""Few balls: what a tick costs when there is hardly anything to do, without and with a call from Python for each."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from kuglice.lab.bench.case import Contender
+from kuglice.lab.bench.case import Contender, Measure, raced
 from kuglice.lab.stopwatch import Work
 from kuglice.model import Model
 from kuglice.scenes import gas
@@ -12,36 +12,44 @@ from kuglice.world import World
 
 __all__ = ["CASES"]
 
-TICKS = 20_000
+BALLS = (10, 100)
+BALL_TICKS = 200_000
 UNIT = "ns per tick"
 
 
-def _ten() -> Mapping[str, Contender]:
+def _few(balls: int) -> Mapping[str, Contender]:
+    ticks = BALL_TICKS // balls
     return {
-        f"{broadphase}, {way}": Contender(prepare(broadphase), TICKS, UNIT)
-        for broadphase in ("brute", "loose_quadtree")
+        f"{contacts}, {way}": Contender(prepare(balls, contacts, ticks), ticks, UNIT)
+        for contacts in ("overlap", "event")
         for way, prepare in (("run(n)", _running), ("step() each", _stepping))
     }
 
 
-def _world(broadphase: str) -> World:
-    return World(gas(n=10), Model(integrator="verlet", contacts="overlap", broadphase=broadphase))
+def _world(balls: int, contacts: str) -> World:
+    scene = gas(n=balls)
+    # The broadphase that the planner takes for so few.
+    broadphase = World(scene).model.broadphase
+    return World(scene, Model(integrator="verlet", contacts=contacts, broadphase=broadphase))
 
 
-def _running(broadphase: str) -> Callable[[], Work]:
-    world = _world(broadphase)
-    return lambda: lambda: world.run(TICKS)
+def _running(balls: int, contacts: str, ticks: int) -> Callable[[], Work]:
+    world = _world(balls, contacts)
+    return lambda: lambda: world.run(ticks)
 
 
-def _stepping(broadphase: str) -> Callable[[], Work]:
-    world = _world(broadphase)
+def _stepping(balls: int, contacts: str, ticks: int) -> Callable[[], Work]:
+    world = _world(balls, contacts)
 
     def work() -> None:
         step = world.step
-        for _ in range(TICKS):
+        for _ in range(ticks):
             step()
 
     return lambda: work
 
 
-CASES: dict[str, Callable[[], Mapping[str, Contender]]] = {"gas 10": _ten}
+CASES: dict[str, Measure] = {
+    f"each tick, {balls} balls": raced(lambda balls=balls: _few(balls))  # type: ignore[misc]
+    for balls in BALLS
+}

@@ -5,21 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import partial
 
-from kuglice.lab.bench import copying, million, small
-from kuglice.lab.bench.case import Case, Contender, stepping
+from kuglice.lab.bench import copying, growth, memory, million, served, small, variety
+from kuglice.lab.bench.case import Case, Contender, Measure, raced
+from kuglice.lab.bench.stepping import OURS, stepping
 from kuglice.lab.peers import PEERS
-from kuglice.lab.running import Make, making
-from kuglice.model import Model
-from kuglice.scene import Balls, Scene
 from kuglice.scenes import find
-from kuglice.world import World
 
 __all__ = ["cases"]
 
-OURS: Mapping[str, Make] = {
-    contacts: making(Model(integrator="verlet", contacts=contacts))
-    for contacts in ("overlap", "backtrack", "event")
-}
 BALL_STEPS = 1_000_000
 """Of one repeat, about: some tens of milliseconds for the fastest contender."""
 SCENES = {
@@ -27,44 +20,38 @@ SCENES = {
     "gas 1,000": "gas:n=1000",
     "gas 10,000": "gas:n=10000",
     "gas 100,000": "gas:n=100000",
-    "gas 1,000,000": "gas:n=1000000",
-    "rain 10,000": "rain:n=10000,radius=0.08",
     "mixed 10,000": "mixed:n=10000",
 }
-SETTLED = {"rain 10,000": 4.0}
-"""Seconds, by `event`, before the race: at first rain meets nothing but air."""
 HEADLINE = "gas 10,000"
-"""pymunk runs here in every bench: it is the one to beat."""
+HEADLINE_PEERS = ("pymunk", "numba grid")
+"""They run here in every bench: these are the ones to beat."""
+LONG: Mapping[str, Measure] = {**memory.CASES, **growth.CASES, **million.CASES}
+"""With a million balls in them: minutes."""
+SHORT: Mapping[str, Measure] = {**small.CASES, **variety.CASES, **copying.CASES, **served.CASES}
+LONG_REPEATS = 3
 
 
 def cases(*, peers: bool, quick: bool, repeats: int) -> list[Case]:
     """In the order in which they run; `quick` leaves the largest scenes out."""
     found = []
     for name, text in SCENES.items():
-        if quick and ("00,000" in name and name != HEADLINE):
+        if quick and "100,000" in name:
             continue
-        case = Case(name, lambda: {}, repeats)
-        case.make = partial(_scene_case, name, text, peers, case.left_out)
+        case = Case(name, lambda _: {}, repeats)
+        case.measure = raced(partial(_scene_case, name, text, peers, case.left_out))
         found.append(case)
-    others = {**small.CASES, **copying.CASES, **({} if quick else million.CASES)}
-    found += [Case(name, make, repeats) for name, make in others.items()]
+    found += [Case(name, measure, repeats) for name, measure in SHORT.items()]
+    if not quick:
+        found += [Case(name, measure, min(repeats, LONG_REPEATS)) for name, measure in LONG.items()]
     return found
 
 
 def _scene_case(name: str, text: str, peers: bool, left_out: list[str]) -> Mapping[str, Contender]:
-    scene = _settled(find(text), SETTLED.get(name, 0.0))
+    scene = find(text)
     makes = dict(OURS)
-    if name == HEADLINE or (peers and len(scene.balls) < 1_000_000):
-        makes |= PEERS if peers else {"pymunk": PEERS["pymunk"]}
+    if peers:
+        makes |= PEERS
+    elif name == HEADLINE:
+        makes |= {peer: PEERS[peer] for peer in HEADLINE_PEERS}
     ticks = max(2, min(1000, BALL_STEPS // len(scene.balls)))
     return stepping(scene, makes, ticks, left_out)
-
-
-def _settled(scene: Scene, seconds: float) -> Scene:
-    if not seconds:
-        return scene
-    world = World(scene, Model(integrator="verlet", contacts="event"))
-    world.run(round(seconds * scene.tick_rate))
-    balls = Balls(position=world.position, velocity=world.velocity, radius=world.radius, mass=world.mass)
-    # Rounding may leave a pair in touch by a last bit.
-    return scene.model_copy(update={"balls": balls, "groups": (), "allow_overlap": True})

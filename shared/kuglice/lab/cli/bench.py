@@ -32,7 +32,10 @@ def register(app: typer.Typer) -> None:
 def bench(  # noqa: PLR0917 - typer makes options of them
     context: typer.Context,
     peers: Annotated[
-        bool, typer.Option("--peers", help="Run all peers too; pymunk runs in gas 10,000 in any case.")
+        bool,
+        typer.Option(
+            "--peers", help="Run all peers too; pymunk and the numba grid run in gas 10,000 in any case."
+        ),
     ] = False,
     quick: Annotated[bool, typer.Option("--quick", help="Leave the largest scenes out.")] = False,
     repeats: Annotated[int, typer.Option(help="Rounds of every case.", min=1, max=1000)] = 5,
@@ -46,7 +49,8 @@ def bench(  # noqa: PLR0917 - typer makes options of them
 
     Peers run from the same initial state. In every round all contenders of a case take their turn, so
     that they meet the same noise. The table gives the minimum and the median of the rounds; `relative`
-    compares minima with the first contender of the case.
+    compares minima with the first contender of the case. What the project wants to reach comes last, with
+    a verdict on the minimum: met or missed.
     """
     if context.invoked_subcommand is not None:
         return
@@ -63,10 +67,18 @@ def bench(  # noqa: PLR0917 - typer makes options of them
             note(case.name)
             results.rows += case.run()
             results.left_out += [f"{case.name}: without {reason}" for reason in case.left_out]
+    verdicts, missing = benches.judged(results.rows)
+    results.rows += verdicts
+    if missing:
+        results.left_out.append(f"targets without a figure in this run: {'; '.join(missing)}")
     written = write(results, out, "bench")
     if as_json:
         print(json.dumps(results.to_message(), indent=2))
     else:
-        print_rows(" | ".join(results.machine.lines()), rounded(results.rows), as_json=False)
+        title = " | ".join(results.machine.lines())
+        for rows in ([row for row in results.rows if "verdict" not in row], verdicts):
+            if rows:
+                print_rows(title, rounded(rows), as_json=False)
+            title = "Targets"
     for line in [*results.left_out, *(f"wrote {path}" for path in written)]:
         print(line, file=sys.stderr)
