@@ -17,8 +17,8 @@ __all__ = ["CASES"]
 BALLS = 10_000
 PACKING = 0.3
 TICKS = 100
-SETTLING_SECONDS = 4.0
-"""At first rain meets nothing but air."""
+SETTLING_SECONDS = 10.0
+"""At first rain meets nothing but air, and then the floor all at once."""
 WEAK = 0.1
 """m/s^2: the heat of the gas holds up against it, so that its balls meet as often as without."""
 
