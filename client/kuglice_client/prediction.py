@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from kuglice import World
 from kuglice._core import INPUT_BYTES
 from kuglice.blending import blend
+from kuglice.budget import tick_budget
 from kuglice.errors import StepError
 from kuglice.inputs import Input, pack
 from kuglice.protocol import StretchedTick
@@ -132,9 +133,9 @@ class Prediction:
             if now == tick - 1:
                 self.previous.copy_from(self.world)
             try:
-                self.world.step(inputs)
+                self.world.step(inputs, budget=tick_budget(self.world))
             except StepError:
-                # The server cannot make this tick either; what it gives up so that it can, only it knows.
+                # The server does not make this tick either; what it gives up so that it can, only it knows.
                 self._stuck = True
                 return
             self._used[now] = inputs

@@ -9,6 +9,8 @@ Every input has a defined answer:
 - too early (beyond `horizon` ticks), or beyond the scene's limits: refused, with the reason;
 - duplicate: never applied twice; acknowledged again once the tick messages that told of it are over; older than what
   is remembered: refused;
+- impossible (a spawn where there is no room, or a tick that cannot be made with it): refused when its tick comes, by
+  the tick loop, even if it was promised;
 - more than `limits.per_tick` in one tick: the rest waits for the next, in order;
 - malformed: a message that cannot be read is refused as a whole, with the reason, under no sequence number;
 - a flood: beyond MESSAGES_PER_TICK messages a tick, counted and not read; what was lost is sent again;
@@ -78,7 +80,7 @@ class Intake:
             message = decode(payload, ClientInputs)
         except ProtocolError as error:
             self._counters["malformed"] += 1
-            self._new_acks.append(Ack(player.number, None, None, 0, _reason(error)))
+            self._new_acks.append(Ack(player.number, None, None, 0, _reason(str(error))))
             return
         if message.epoch != self._epoch:
             self._counters["other epoch"] += 1
@@ -94,6 +96,23 @@ class Intake:
         for client in {one.client for one in inputs}:
             del self._used[client, tick]
         return inputs
+
+    def left_out(self, tick: int, one: Input, why: str) -> None:
+        """An input that was due in `tick` does not act after all: refused, whatever was promised."""
+        player = self._players.numbered(one.client)
+        acting = self._acting.get(tick, [])
+        promised = next(
+            (ack for ack in acting if (ack.client, ack.sequence) == (one.client, one.sequence)), None
+        )
+        if player is None or promised is None:
+            return
+        acting.remove(promised)
+        ack = promised._replace(tick=None, refused=_reason(why))
+        player.remember(one.sequence, ack)
+        player.accepted -= 1
+        player.refused += 1
+        self._counters["left out"] += 1
+        self._new_acks.append(ack)
 
     def acks(self, tick: int, *, repeat: int) -> list[Ack]:
         """Outcomes to publish with `tick`: of what acts in it, new ones, and those of the last `repeat` ticks again."""
@@ -123,7 +142,7 @@ class Intake:
         except InputError as error:
             player.refused += 1
             self._counters["refused"] += 1
-            ack = Ack(player.number, sent.given.sequence, None, early, _reason(error))
+            ack = Ack(player.number, sent.given.sequence, None, early, _reason(str(error)))
             player.remember(sent.given.sequence, ack)
             self._new_acks.append(ack)
             return
@@ -166,6 +185,5 @@ class Intake:
             self._new_acks.append(known)
 
 
-def _reason(error: Exception) -> str:
-    text = str(error)
+def _reason(text: str) -> str:
     return text if len(text) <= MAX_REASON else f"{text[: MAX_REASON - 3]}..."

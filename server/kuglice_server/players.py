@@ -85,6 +85,10 @@ class Players:
         player = self._by_name.get(name)
         return player if player is not None and player.present else None
 
+    def numbered(self, number: int) -> Player | None:
+        """The player of that number, here or not."""
+        return next((player for player in self._by_name.values() if player.number == number), None)
+
     def arrive(self, name: str) -> None:
         """A token appeared."""
         if self.find(name) is None and len(self._waiting) < MAX_NAMES:

@@ -15,12 +15,13 @@ from kuglice import World
 from kuglice.errors import InputError, ProtocolError, StepError
 from kuglice.inputs import Input, pack
 from kuglice.protocol import MAX_TOLD_TICKS, Keys, StretchedTick
-from kuglice_server.attempts import attempts
+from kuglice_server.attempts import Attempt, attempts
 from kuglice_server.history import History, KeptSnapshot
 from kuglice_server.intake import Intake
 from kuglice_server.players import Players
 from kuglice_server.publish import Publisher
 from kuglice_server.record import Record
+from kuglice_server.room import without_room
 
 __all__ = ["TickLoop"]
 
@@ -70,14 +71,15 @@ class TickLoop:
             self._note_tokens()
             self._take_inputs()
             authored = self._players.authored(world)
-            inputs = self._intake.due(number)
-            acks = self._intake.acks(number, repeat=REPEATED_ACKS)
+            inputs = self._with_room(authored, self._intake.due(number))
             heard = self._players.heard
         if number % self._snapshot_every == 0:
             data = world.snapshot()
             self._history.add_snapshot(KeptSnapshot(number, data))
             self._guarded(partial(self._publisher.snapshot, number, data))
         records = self._step(authored, inputs)
+        with self._lock:
+            acks = self._intake.acks(number, repeat=REPEATED_ACKS)
         hashed = world.tick % self._hash_every == 0
         entry = StretchedTick(number, records, world.state_hash if hashed else None)
         self._history.add_tick(entry)
@@ -104,24 +106,42 @@ class TickLoop:
             self._counters["bytes in"] += len(data)
             self._intake.receive(str(sample.key_expr), data, world=self._world)
 
+    def _with_room(self, authored: list[Input], inputs: list[Input]) -> list[Input]:
+        inputs = _ordered(inputs)
+        refused = without_room(self._world, authored, inputs)
+        for spawn, why in refused:
+            self._intake.left_out(self._world.tick, spawn, why)
+        return [one for one in inputs if not any(one is spawn for spawn, _ in refused)]
+
     def _step(self, authored: list[Input], inputs: list[Input]) -> bytes:
         failed: Exception | None = None
-        for tried, loss in attempts(self._world, authored, inputs):
-            records = _packed(tried)
+        for attempt in attempts(self._world, authored, inputs):
+            # The step puts them into order itself; this order makes equal sets of inputs equal bytes.
+            records = pack(_ordered(attempt.inputs))
             try:
-                self._world.step(records)
+                self._world.step(records, budget=attempt.budget)
             except (InputError, StepError) as error:
                 log.error("%s", error)
-                failed = error
+                failed = failed or error
                 continue
             if failed is not None:
-                log.error("tick %d was made after all: %s", self._world.tick - 1, loss)
-                self._counters["left out"] += len(inputs)
-                self._counters["released"] += len(tried) - len(authored)
+                self._note_losses(attempt, authored, inputs, failed)
             return records
         raise StepError(
             f"tick {self._world.tick} cannot be made, not even without any input: {failed}"
         ) from failed
+
+    def _note_losses(
+        self, made: Attempt, authored: list[Input], inputs: list[Input], failed: Exception
+    ) -> None:
+        tick = self._world.tick - 1
+        log.error("tick %d was made after all: %s", tick, made.loss)
+        extra = Counter(one.kind for one in made.inputs if not any(one is other for other in authored))
+        with self._lock:
+            for one in inputs:
+                self._intake.left_out(tick, one, f"left out: {failed}")
+            self._counters["removed"] += extra.pop("remove", 0)
+            self._counters["released"] += extra.total()
 
     def _guarded(self, publish: Callable[[], None]) -> None:
         try:
@@ -132,6 +152,5 @@ class TickLoop:
             self._counters["unpublished"] += 1
 
 
-def _packed(inputs: list[Input]) -> bytes:
-    # The step puts them into order itself; this order makes equal sets of inputs equal bytes.
-    return pack(sorted(inputs, key=lambda one: (one.client, one.sequence)))
+def _ordered(inputs: list[Input]) -> list[Input]:
+    return sorted(inputs, key=lambda one: (one.client, one.sequence))

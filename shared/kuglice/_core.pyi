@@ -103,8 +103,11 @@ class World:
 
     @property
     def threads(self) -> int: ...
-    def step(self, inputs: bytes, dt: float | None = None) -> None:
-        """One tick. `inputs` is any number of input records in any order; `dt` overrides 1 / tick_rate."""
+    def step(self, inputs: bytes, dt: float | None = None, budget: int | None = None) -> None:
+        """One tick. `inputs` is any number of input records in any order; `dt` overrides 1 / tick_rate.
+
+        `budget` bounds the pairs that `event` looks at.
+        """
 
     def run(self, ticks: int) -> None:
         """That many ticks without inputs."""

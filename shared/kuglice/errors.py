@@ -10,7 +10,8 @@ KugliceError
 ├── LentError                 a change to a world whose arrays are lent
 ├── StepError                 a tick that cannot be made; the world stays at its last whole one
 │   ├── DivergedError         a position or velocity that is no longer finite
-│   └── EventLimitError       more collisions in one tick than the limit
+│   ├── EventLimitError       more collisions in one tick than the limit
+│   └── BudgetError           more work in one tick than the caller gave it
 ├── ReplayError               a replay file that is damaged, or not one
 ├── ProtocolError             a message that is damaged, too large, or of another version
 ├── NetworkError              a link that cannot be opened or conditioned as asked
@@ -24,6 +25,7 @@ The compiled core looks its errors up here by name.
 from __future__ import annotations
 
 __all__ = [
+    "BudgetError",
     "DivergedError",
     "EventLimitError",
     "InputError",
@@ -90,6 +92,10 @@ class DivergedError(StepError):
 
 class EventLimitError(StepError):
     """A tick with more collisions than the limit."""
+
+
+class BudgetError(StepError):
+    """A tick that wanted more work than the caller gave it; with more it could be made."""
 
 
 class ReplayError(KugliceError):

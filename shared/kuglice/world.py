@@ -21,7 +21,8 @@ __all__ = ["World"]
 Floats = NDArray[np.float64]
 Ids = NDArray[np.uint64]
 MOST_TICKS = 2**63
-"""The core counts them in 64 bits."""
+MOST_PAIRS = 2**64
+"""The core counts both in 64 bits."""
 
 
 class World:
@@ -111,13 +112,20 @@ class World:
         made._scene, made._model, made._core = scene, model, core
         return made
 
-    def step(self, inputs: Iterable[Input] | bytes = (), dt: float | None = None) -> None:
+    def step(
+        self, inputs: Iterable[Input] | bytes = (), dt: float | None = None, *, budget: int | None = None
+    ) -> None:
         """One tick with inputs in any order, or with records that `pack` made.
 
-        dt, in seconds, replaces 1 / tick_rate for loops of variable step. Raises InputError for what is no
-        input, LentError while lent.
+        dt, in seconds, replaces 1 / tick_rate for loops of variable step. `budget` bounds the work: the pairs
+        that the treatment `event` looks at, about 20 ns each. A tick that is made within one is made by
+        everybody, with the same bits; BudgetError means that a larger one may make it. Raises InputError for
+        what is no input, LentError while lent, LimitError for a budget that is none, StepError for a tick that
+        cannot be made.
         """
-        self._core.step(inputs if isinstance(inputs, bytes) else pack(inputs), dt)
+        if budget is not None and not 0 <= budget < MOST_PAIRS:
+            raise LimitError(f"step: budget = {budget!r}: must be at least 0 and below {MOST_PAIRS}")
+        self._core.step(inputs if isinstance(inputs, bytes) else pack(inputs), dt, budget)
 
     def run(self, ticks: int) -> None:
         """That many ticks without inputs. Raises LimitError for a number below 0, LentError while lent."""

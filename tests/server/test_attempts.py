@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from kuglice import World
+from kuglice.budget import tick_budget
 from kuglice.inputs import Attract, Join, Kick, Thrust
 from kuglice_server.attempts import attempts
 from server.small_arena import small_arena
@@ -19,12 +20,14 @@ def test_new_inputs_go_first_then_what_is_held_and_the_servers_own_never() -> No
     )
     own, new = [Join(client=3)], [Kick(client=1, sequence=2, vx=1.0, vy=0.0)]
 
-    tried, losses = zip(*attempts(world, own, new), strict=True)
+    tried, budgets, losses = zip(*attempts(world, own, new), strict=True)
 
     assert tried[0] == own + new
     assert tried[1] == own
-    assert tried[2][: len(own)] == own
     assert losses[1] == "1 inputs are left out"
+    assert all(inputs[: len(own)] == own for inputs in tried)
+    assert set(budgets[:-1]) == {tick_budget(world)}
+    assert budgets[-1] is None
     world.step(tried[2])
     assert [strength for *_, strength in world.held] == [0.0] * len(world.held)
     assert all((x, y) == (0.0, 0.0) for _, kind, x, y, _ in world.held if kind == "thrust")

@@ -245,12 +245,12 @@ impl World {
         world.map(World::own).map_err(|error| raise(py, &error))
     }
 
-    #[pyo3(signature = (inputs, dt = None))]
-    fn step(&mut self, py: Python<'_>, inputs: &[u8], dt: Option<f64>) -> PyResult<()> {
+    #[pyo3(signature = (inputs, dt = None, budget = None))]
+    fn step(&mut self, py: Python<'_>, inputs: &[u8], dt: Option<f64>, budget: Option<u64>) -> PyResult<()> {
         self.check_not_lent(py)?;
         let inputs = read_inputs(inputs).map_err(|error| raise(py, &error))?;
         let world = &mut self.inner;
-        py.detach(|| world.step(&inputs, dt))
+        py.detach(|| world.step_within(&inputs, dt, budget.unwrap_or(u64::MAX)))
             .map_err(|error| raise(py, &error))
     }
 

@@ -31,6 +31,11 @@ pub enum Error {
         /// The bound.
         limit: u64,
     },
+    /// A tick wanted to look at more pairs than the caller gave it. Where that is depends on the broadphase.
+    Budget {
+        /// The tick that was not completed.
+        tick: u64,
+    },
 }
 
 impl Error {
@@ -44,6 +49,7 @@ impl Error {
             Error::Snapshot(_) => "SnapshotError",
             Error::Diverged { .. } => "DivergedError",
             Error::EventLimit { .. } => "EventLimitError",
+            Error::Budget { .. } => "BudgetError",
         }
     }
 }
@@ -58,6 +64,10 @@ impl fmt::Display for Error {
                 f,
                 "tick {tick}: the position or velocity of ball {ball} is no longer finite; \
                  the method is unstable in this scene, take a shorter tick, more substeps or another integrator"
+            ),
+            Error::Budget { tick } => write!(
+                f,
+                "tick {tick}: its collisions have more pairs to look at than the budget of this step"
             ),
             Error::EventLimit {
                 tick,

@@ -176,6 +176,15 @@ impl World {
     /// # Errors
     /// [`Error::Diverged`] or [`Error::EventLimit`]; the world then stays as it was before.
     pub fn step(&mut self, inputs: &[Input], dt: Option<f64>) -> Result<(), Error> {
+        self.step_within(inputs, dt, u64::MAX)
+    }
+
+    /// As [`World::step`], with a bound on the work: the pairs that `event` looks at. A tick that is made within it is
+    /// made everywhere, with the same bits; one that is not may be made elsewhere.
+    ///
+    /// # Errors
+    /// Those of [`World::step`], and [`Error::Budget`].
+    pub fn step_within(&mut self, inputs: &[Input], dt: Option<f64>, budget: u64) -> Result<(), Error> {
         if let Some(dt) = dt.filter(|dt| !(dt.is_finite() && *dt > 0.0)) {
             return Err(Error::Input(format!(
                 "dt is {dt} s, it must be above 0 and finite"
@@ -184,7 +193,7 @@ impl World {
         let team = self.team.clone();
         team.enter(|| {
             self.remember(!inputs.is_empty());
-            let done = self.try_step(inputs, dt);
+            let done = self.try_step(inputs, dt, budget);
             match done {
                 Ok(()) => self.arrange(),
                 Err(_) => self.go_back(!inputs.is_empty()),
@@ -239,7 +248,7 @@ impl World {
         }
     }
 
-    fn try_step(&mut self, inputs: &[Input], dt: Option<f64>) -> Result<(), Error> {
+    fn try_step(&mut self, inputs: &[Input], dt: Option<f64>, mut budget: u64) -> Result<(), Error> {
         let state = &mut self.state;
         self.inputs.clear();
         self.inputs.extend_from_slice(inputs);
@@ -261,6 +270,7 @@ impl World {
                 tick: state.tick,
                 time: start + f64::from(substep) * part,
                 dt: part,
+                budget: &mut budget,
             })?;
         }
         if let Some(ball) = state.balls.first_not_finite(&self.team) {

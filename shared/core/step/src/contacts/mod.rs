@@ -42,6 +42,8 @@ pub struct Substep<'a> {
     pub time: f64,
     /// Length in seconds.
     pub dt: f64,
+    /// Pairs that `event` may still look at in this tick; see [`Error::Budget`].
+    pub budget: &'a mut u64,
 }
 
 /// A contact treatment; what it keeps is scratch memory.
@@ -49,7 +51,7 @@ pub trait Contacts: Send + Sync {
     /// Moves the balls over one substep, collisions included.
     ///
     /// # Errors
-    /// [`Error::EventLimit`]; the state is then to be thrown away.
+    /// [`Error::EventLimit`] or [`Error::Budget`]; the state is then to be thrown away.
     fn advance(&mut self, substep: &mut Substep<'_>) -> Result<(), Error>;
 }
 

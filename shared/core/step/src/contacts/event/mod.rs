@@ -109,6 +109,7 @@ impl EventDriven {
     }
 
     fn run(&mut self, substep: &mut Substep<'_>) -> Result<(), Error> {
+        spend(substep, self.found.count())?;
         let walls = Walls::of(substep.rules);
         let law = Law::new(substep.rules.restitution(), substep.dt);
         let mut count = 0;
@@ -117,6 +118,7 @@ impl EventDriven {
             if count + self.paths.supports.sweeps() > EVENT_LIMIT {
                 return Err(event_limit(substep, &event));
             }
+            spend(substep, 1)?;
             let first = event.first as usize;
             self.changed.clear();
             match event.partner.as_ball() {
@@ -136,6 +138,7 @@ impl EventDriven {
             }
             for at in 0..self.changed.len() {
                 self.predict_again(substep, walls.as_ref(), self.changed[at]);
+                spend(substep, self.near.len())?;
             }
         }
         Ok(())
@@ -208,6 +211,17 @@ fn predict_pairs(paths: &Paths, balls: &Balls, pairs: &[Pair], events: &mut Vec<
         if let Some(time) = predict::pair(paths, balls, first, second) {
             events.push(Event::of_pair(time, first, second, balls, &paths.hits));
         }
+    }
+}
+
+/// Takes so many pairs from what the tick was given.
+fn spend(substep: &mut Substep<'_>, pairs: usize) -> Result<(), Error> {
+    match substep.budget.checked_sub(pairs as u64) {
+        Some(left) => {
+            *substep.budget = left;
+            Ok(())
+        }
+        None => Err(Error::Budget { tick: substep.tick }),
     }
 }
 
