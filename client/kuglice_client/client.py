@@ -36,7 +36,7 @@ __all__ = ["Client", "ClientSettings"]
 
 log = logging.getLogger(__name__)
 
-PREDICTED_SECONDS = 0.5
+PREDICTED_SECONDS = 1.5
 BOT_SECONDS = 1 / 15
 IDLE_SECONDS = 0.002
 STALL_SECONDS = 2.0
@@ -123,6 +123,7 @@ class Client:
     def act(self, given: Input) -> None:
         """Do something at the next tick that is predicted, or `input_delay` ticks later.
 
+        Who is behind with predicting acts where it should be: ticks that are long due are over at the server.
         Client and sequence number are filled in here.
 
         Raises JoinError for a spectator, and when too much is unacknowledged to add more.
@@ -131,10 +132,12 @@ class Client:
             raise JoinError("a spectator cannot act: join with a name")
         if self.outbox.full:
             raise JoinError("too many inputs are unacknowledged: the server does not answer")
-        tick = self.prediction.world.tick + self.settings.input_delay
-        mine = self.outbox.add(given, tick)
+        now = time.monotonic()
+        due = math.floor(self.clock.target(now)) - 1
+        tick = max(self.prediction.world.tick, due) + self.settings.input_delay
+        mine = self.outbox.add(given, tick, lead=self.clock.lead, made=now)
         self.prediction.act(mine, tick)
-        self.feel.acted(mine.sequence, tick, time.monotonic())
+        self.feel.acted(mine.sequence, tick, now)
 
     def turn(self, now: float) -> float:
         """Take in what came, predict up to now, send.
@@ -219,7 +222,14 @@ class Client:
         self.follower = Follower(joined.world)
         self.reconciler = Reconciler(self.follower, snapshot_every=about.snapshot_every)
         self.prediction = Prediction(joined.world, limit=max(4, round(PREDICTED_SECONDS * about.rate)))
-        self.clock = Clock(rate=about.rate, tick=about.tick, now=now, round_trip=joined.round_trip)
+        self.clock = Clock(
+            rate=about.rate,
+            tick=about.tick,
+            now=now,
+            round_trip=joined.round_trip,
+            input_delay=self.settings.input_delay,
+            in_order="udp" not in self.link.kinds,
+        )
         self._pinging = Pinging(self.link, self._keys, epoch=joined.epoch, now=now)
         self.correction.clear()
         self.feel.entered()
@@ -286,8 +296,9 @@ class Client:
             if pending is None:
                 continue
             self.prediction.settle(pending.given, pending.tick, ack.tick)
-            if ack.early is not None:
-                self.clock.reported(ack.early)
+            early = pending.early(ack)
+            if early is not None:
+                self.clock.reported(early, lead=pending.lead, made=pending.made)
             if ack.refused is not None:
                 log.warning("refused: %s", ack.refused)
 
@@ -317,9 +328,12 @@ class Client:
             self.correction.moved(*before, *after, prediction.world.radius)
 
     def _predict(self, tick: int) -> None:
-        while self.prediction.world.tick < tick and self.prediction.may_step(self.confirmed):
-            self._let_bot_act()
-            self.prediction.step()
+        prediction = self.prediction
+        until = min(tick, self.confirmed.tick + prediction.limit)
+        while prediction.world.tick < tick and prediction.may_step(self.confirmed):
+            if prediction.world.tick == until - 1:
+                self._let_bot_act()
+            prediction.step()
 
     def _note_lag(self) -> None:
         behind = self.follower.behind

@@ -1,8 +1,12 @@
 """Which tick it is: where the stream is now, and how far ahead of it this client runs.
 
-The stream's phase is the earliest arrival seen lately (delay only ever adds), let slip slowly so that a
-server that slowed down is followed. The lead follows the server's own report of how early each input came.
-Neither jumps: the client's rate stays within 2 % of the server's, except after a long stall.
+The stream's phase is the earliest arrival of the last ones: delay only ever adds. The lead over it is what the
+server's own reports of how early each input came ask for: with each input goes the lead that it was made with, so
+that a report says what lead would have been just enough, however much the clock has moved since. The worst of the
+last reports counts. Until there are enough of them, round trip and jitter of the stream stand in: for who acts
+seldom they always do.
+
+What comes of it moves at 0.98 to 1.02 times the server's rate; it jumps only on joining and after a long stall.
 """
 
 from __future__ import annotations
@@ -11,35 +15,66 @@ from collections import deque
 
 __all__ = ["Clock"]
 
-SLIP = 0.02
+SLEW = 0.02
 STALL_SECONDS = 0.5
-EARLY_TICKS = 1
-REPORTS = 32
+SETTLING_SECONDS = 2.0
+SAFETY_TICKS = 0.5
+REPEAT_TICKS = 1.0
+"""From one copy of an input to the next: a lost message must be made up for in time."""
+RETRANSMISSION_TRIPS = 1.25
+"""Round trips by which a lost segment comes later: RFC 8985 waits for a quarter of one before it sends it again."""
+REPORTS = 256
+REPORT_SECONDS = 60.0
 ARRIVALS = 256
 TRIPS = 8
 JITTER_QUANTILE = 0.95
+WORST_QUANTILE = 0.99
 
 
 class Clock:
-    """Seconds of any monotonic clock in, ticks out. `rate`: the server's ticks per second."""
+    """Seconds of any monotonic clock in, ticks out. `rate`: the server's ticks per second.
 
-    def __init__(self, *, rate: float, tick: int, now: float, round_trip: float) -> None:
+    `input_delay`: ticks between an own input and its effect, by which less lead is needed. `in_order`: whether a
+    message that is lost holds up those after it, as over tcp alone.
+    """
+
+    def __init__(
+        self,
+        *,
+        rate: float,
+        tick: int,
+        now: float,
+        round_trip: float,
+        input_delay: int = 0,
+        in_order: bool = False,
+    ) -> None:
         self._rate = rate
-        self._origin = now - tick / rate
+        self._in_order = in_order
+        self._input_delay = input_delay
         self._heard_at = now
-        self._lead = 2.0 + round_trip * rate
-        self._wanted_lead = self._lead
-        self._slewed_at = now
         self._trips: deque[float] = deque([round_trip], maxlen=TRIPS)
-        self._late: deque[float] = deque(maxlen=ARRIVALS)
-        self._early: deque[int] = deque(maxlen=REPORTS)
+        self._origins: deque[float] = deque([now - tick / rate], maxlen=ARRIVALS)
+        self._origin = self._origins[0]
+        self._needed: deque[tuple[float, float]] = deque(maxlen=REPORTS)
+        self._resumed_at = now
+        self._moved_to = now
+        self._at: float | None = None
         self._last = 0.0
+        self._jump = True
+        self._wanted_lead = self._guessed_lead()
+        self.pace = 1.0
+        """Ticks per tick of the server, when last asked."""
         self.snaps = 0
 
     @property
     def lead(self) -> float:
         """Ticks that the client runs ahead of the stream as it hears it."""
-        return self._lead
+        return self._wanted_lead if self._at is None else self._at - self._stream(self._moved_to)
+
+    @property
+    def wanted_lead(self) -> float:
+        """Ticks that it should be ahead; `lead` gets there by and by."""
+        return self._wanted_lead
 
     @property
     def round_trip(self) -> float:
@@ -49,8 +84,7 @@ class Clock:
     @property
     def jitter(self) -> float:
         """Seconds after the earliest possible moment by which 95 % of the tick messages came."""
-        late = sorted(self._late)
-        return late[int(JITTER_QUANTILE * (len(late) - 1))] if late else 0.0
+        return self._late(JITTER_QUANTILE)
 
     def answered(self, round_trip: float) -> None:
         """A query took that many seconds."""
@@ -59,35 +93,65 @@ class Clock:
     def heard(self, next_tick: int, now: float) -> None:
         """The stream told everything before `next_tick`, just now."""
         origin = now - next_tick / self._rate
-        late = origin - self._origin
-        if late > STALL_SECONDS:
-            self._origin = origin
-            self.snaps += 1
-        elif late < 0:
-            self._origin = origin
-        else:
-            self._origin += min(late, SLIP * (now - self._heard_at))
-            self._late.append(late)
+        silent = now - self._heard_at > STALL_SECONDS
+        if silent or origin - self._origin > STALL_SECONDS:
+            self.snaps += not self._jump
+            self._jump, self._resumed_at = True, now
+            self._needed.clear()
+        if self._jump:
+            # What has waited, for us to join or for the link to return, says nothing about jitter.
+            self._origins.clear()
+        self._origins.append(origin)
+        self._origin = min(self._origins)
         self._heard_at = now
+        self._want(now)
 
-    def reported(self, early: int) -> None:
-        """The server said how many ticks before its turn an input came (negative: late)."""
-        self._early.append(early)
-        worst = min(self._early)
-        if early < EARLY_TICKS:
-            self._wanted_lead = self._lead + (EARLY_TICKS - early)
-            self._early.clear()
-        elif len(self._early) == REPORTS and worst > EARLY_TICKS:
-            self._wanted_lead = self._lead - (worst - EARLY_TICKS) / 2
-            self._early.clear()
+    def reported(self, early: int, *, lead: float, made: float) -> None:
+        """The server said how many ticks before its turn an input came (negative: late).
+
+        It was `made` at that time, in seconds, with that `lead`.
+        """
+        if made < self._resumed_at or early < -STALL_SECONDS * self._rate:
+            # Held up by a stall: no lead would have been enough, nor is one needed from now on.
+            return
+        self._needed.append((self._heard_at, lead - early))
+        self._want(self._heard_at)
 
     def target(self, now: float) -> float:
         """The tick that the predicted world should be at, fraction included; never less than before."""
-        change = SLIP * self._rate * (now - self._slewed_at)
-        self._slewed_at = now
-        self._lead += max(-change, min(change, self._wanted_lead - self._lead))
         # Without news the clock does not run away: the stream may have stopped.
-        heard = min(now, self._heard_at + STALL_SECONDS)
-        target = (heard - self._origin) * self._rate + self._lead
-        self._last = max(self._last, target)
+        until = max(self._moved_to, min(now, self._heard_at + STALL_SECONDS))
+        passed = (until - self._moved_to) * self._rate
+        self._moved_to = until
+        wanted = self._stream(until) + self._wanted_lead
+        if self._at is None or self._jump or abs(wanted - self._at) > STALL_SECONDS * self._rate:
+            self._at, self._jump = wanted, False
+        else:
+            fastest = max(wanted, self._at) if until - self._resumed_at < SETTLING_SECONDS else self._at
+            fastest = max(fastest, self._at + (1 + SLEW) * passed)
+            at = max(self._at + (1 - SLEW) * passed, min(fastest, wanted))
+            self.pace = (at - self._at) / passed if passed else self.pace
+            self._at = at
+        self._last = max(self._last, self._at)
         return self._last
+
+    def _stream(self, now: float) -> float:
+        return (now - self._origin) * self._rate
+
+    def _late(self, quantile: float) -> float:
+        late = sorted(origin - self._origin for origin in self._origins)
+        return late[int(quantile * (len(late) - 1))]
+
+    def _want(self, now: float) -> None:
+        while self._needed and now - self._needed[0][0] > REPORT_SECONDS:
+            self._needed.popleft()
+        needed = max((need for _, need in self._needed), default=0.0) + SAFETY_TICKS
+        full = len(self._needed) == REPORTS
+        self._wanted_lead = max(0.0, needed if full else max(needed, self._guessed_lead()))
+
+    def _guessed_lead(self) -> float:
+        jitter = self._late(WORST_QUANTILE)
+        if self._in_order and len(self._origins) < ARRIVALS:
+            # Until the stream has had the time to show how long losses hold it up.
+            jitter = max(jitter, RETRANSMISSION_TRIPS * self.round_trip)
+        return SAFETY_TICKS + REPEAT_TICKS + (self.round_trip + jitter) * self._rate - self._input_delay

@@ -87,12 +87,14 @@ def _attempt(
     deadline: float,
     stop: threading.Event,
 ) -> Joined:
+    asked_at = time.monotonic()
     try:
         about = decode(link.ask(keys.about, None).wait_whole(stop).data, About)
     except JoinError as error:
         raise _NotYetError(str(error)) from error
     except ProtocolError as error:
         raise JoinError(f"{keys.about}: {error}") from error
+    round_trip = time.monotonic() - asked_at
     if about.step_version != _core.STEP_VERSION:
         raise JoinError(
             f"step version {about.step_version} of the server (kuglice {about.version}): this client has "
@@ -104,7 +106,8 @@ def _attempt(
     try:
         asked_at = time.monotonic()
         snapshot = link.ask(keys.history, SnapshotRequest(epoch=about.epoch, at=None)).wait_whole(stop)
-        round_trip = time.monotonic() - asked_at
+        # Both took at least that long; one may have waited for something that was lost.
+        round_trip = min(round_trip, time.monotonic() - asked_at)
     except JoinError as error:
         raise _NotYetError(str(error)) from error
     try:

@@ -6,6 +6,7 @@ that one that is lost is made up for before its tick has come; after that only w
 
 from __future__ import annotations
 
+from itertools import islice
 from typing import NamedTuple
 
 from kuglice.inputs import Input
@@ -21,10 +22,18 @@ REPORT_SECONDS = 0.1
 
 
 class Pending(NamedTuple):
-    """An input and the tick it is meant for."""
+    """An input, the tick it is meant for, and when and with how much lead (clock.py) it was made."""
 
     tick: int
     given: Input
+    lead: float
+    made: float
+
+    def early(self, ack: Ack) -> int | None:
+        """Ticks before its turn that it came (negative: late), as far as its outcome tells."""
+        if ack.early is None and ack.tick is not None and ack.tick > self.tick:
+            return self.tick - ack.tick
+        return ack.early
 
 
 class Outbox:
@@ -55,11 +64,11 @@ class Outbox:
         """Whether too much is unacknowledged to add more: the link is down, or the server is."""
         return len(self._pending) >= MAX_PENDING
 
-    def add(self, given: Input, tick: int) -> Input:
+    def add(self, given: Input, tick: int, *, lead: float, made: float) -> Input:
         """Take an input meant for `tick`; returns it with this client's number and its sequence number."""
         self._sequence += 1
         mine: Input = given.model_copy(update={"client": self.number, "sequence": self._sequence})
-        self._pending[self._sequence] = Pending(tick, mine)
+        self._pending[self._sequence] = Pending(tick, mine, lead, made)
         self._new, self._copies = True, COPIES
         return mine
 
@@ -74,7 +83,8 @@ class Outbox:
             self.refused += 1
         else:
             self.accepted += 1
-            self.late += ack.tick > pending.tick if ack.early is None else ack.early < 0
+            early = pending.early(ack)
+            self.late += early is not None and early < 0
         return pending
 
     def message(self, now: float, heard: int) -> ClientInputs | None:
@@ -89,5 +99,5 @@ class Outbox:
         self._copies = max(0, self._copies - 1)
         self._sent_at = now
         self._reported = heard
-        sent = [SentInput(tick, given) for tick, given in list(self._pending.values())[:MAX_INPUTS]]
+        sent = [SentInput(one.tick, one.given) for one in islice(self._pending.values(), MAX_INPUTS)]
         return ClientInputs(epoch=self._epoch, heard=heard, inputs=sent)

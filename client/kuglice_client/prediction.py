@@ -33,7 +33,7 @@ class Prediction:
     def __init__(self, confirmed: World, *, limit: int) -> None:
         self.world = confirmed.clone()
         self.previous = confirmed.clone()
-        self._limit = limit
+        self.limit = limit
         self._own: dict[int, list[Input]] = {}
         self._promised: dict[int, list[Input]] = {}
         self._used: dict[int, bytes] = {}
@@ -94,7 +94,7 @@ class Prediction:
         ids, positions = self.world.id, self.world.position
         self.world.copy_from(confirmed)
         self._used.clear()
-        self._run_to(min(reached, confirmed.tick + self._limit))
+        self._run_to(min(reached, confirmed.tick + self.limit))
         self.rollbacks += 1
         self.deepest_rollback = max(self.deepest_rollback, self.world.tick - confirmed.tick)
         self.ticks_rerun += self.world.tick - confirmed.tick
@@ -117,7 +117,7 @@ class Prediction:
 
     def may_step(self, confirmed: World) -> bool:
         """Whether one more tick may be predicted."""
-        if not self._stuck and self.world.tick - confirmed.tick < self._limit:
+        if not self._stuck and self.world.tick - confirmed.tick < self.limit:
             return True
         self.held_back += 1
         return False
