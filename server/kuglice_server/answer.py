@@ -1,4 +1,4 @@
-"""What the server says when asked: about, history, status; on Zenoh's threads, beside the tick loop."""
+"""What the server says when asked: about, view, history, status; on Zenoh's threads, beside the tick loop."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from kuglice.protocol import (
     SnapshotRequest,
     Status,
     TickRange,
+    ViewAbout,
     decode,
     encode,
     split,
@@ -33,7 +34,7 @@ log = logging.getLogger(__name__)
 class Answers:
     """Queryables of one world.
 
-    `about` and `status` are called for fresh messages and must be safe to call from any thread.
+    `about`, `view` and `status` are called for fresh messages and must be safe to call from any thread.
     """
 
     def __init__(
@@ -43,15 +44,18 @@ class Answers:
         *,
         epoch: int,
         about: Callable[[], About],
+        view: Callable[[], ViewAbout],
         status: Callable[[], Status],
         history: KeptHistory,
     ) -> None:
         self._epoch = epoch
         self._about = about
+        self._view = view
         self._status = status
         self._history = history
         handlers: list[tuple[str, Callable[[zenoh.Query], Iterator[Message]]]] = [
             (keys.about, self._answer_about),
+            (keys.view, self._answer_view),
             (keys.status, self._answer_status),
             (keys.history, self._answer_history),
         ]
@@ -83,6 +87,9 @@ class Answers:
     def _answer_about(self, query: zenoh.Query) -> Iterator[Message]:
         about = self._about()
         yield from split(encode(about), of="about", epoch=self._epoch, tick=about.tick)
+
+    def _answer_view(self, query: zenoh.Query) -> Iterator[Message]:
+        yield self._view()
 
     def _answer_status(self, query: zenoh.Query) -> Iterator[Message]:
         yield self._status()

@@ -13,7 +13,7 @@ from typing import Any, Self
 
 import zenoh
 
-from kuglice import Scene, World, __version__, _core
+from kuglice import Balls, Scene, World, __version__, _core
 from kuglice.errors import ProtocolError
 from kuglice.protocol import (
     DEFAULT_ENDPOINT,
@@ -21,6 +21,7 @@ from kuglice.protocol import (
     Declared,
     Keys,
     Status,
+    ViewAbout,
     close_session,
     open_session,
     refuse_exposed,
@@ -32,6 +33,7 @@ from kuglice_server.intake import Intake
 from kuglice_server.players import Players
 from kuglice_server.publish import Publisher
 from kuglice_server.record import Record
+from kuglice_server.regions import RegionPublisher, choose_terms
 from kuglice_server.schedule import Schedule
 from kuglice_server.tick_loop import TickLoop
 
@@ -53,7 +55,8 @@ class ServerSettings:
 
     `rate`: ticks per second of wall clock (None: the scene's). `snapshot_every`: ticks between published
     snapshots (None: a second's worth). `hash_every`: ticks between states whose hash is told (None: every one,
-    or one per second where that would cost too much). `threads`: how many share the work of a step. `insecure`:
+    or one per second where that would cost too much). `region_rate`: times per second that views are told of what they
+    look at. `threads`: how many share the work of a step. `insecure`:
     listen on addresses that others can reach, although there are no accounts and no encryption yet.
     """
 
@@ -63,6 +66,7 @@ class ServerSettings:
     rate: float | None = None
     snapshot_every: int | None = None
     hash_every: int | None = None
+    region_rate: float = 10.0
     record: Path | None = None
     threads: int = 1
     insecure: bool = False
@@ -76,6 +80,10 @@ class ServerSettings:
             raise ProtocolError(f"snapshot-every {self.snapshot_every}: must be at least 1 tick")
         if self.hash_every is not None and self.hash_every < 1:
             raise ProtocolError(f"hash-every {self.hash_every}: must be at least 1 tick")
+        if not 0 < self.region_rate <= 1000:
+            raise ProtocolError(
+                f"region-rate {self.region_rate}: must be above 0 and at most 1000 times per second"
+            )
         if self.rate is not None and not 0 < self.rate <= 10_000:
             raise ProtocolError(f"rate {self.rate}: must be above 0 and at most 10000 ticks per second")
 
@@ -112,6 +120,18 @@ class Server:
         keys = Keys(settings.world)
         self._session = open_session(server_configuration(listen=settings.listen, connect=settings.connect))
         publisher = Publisher(self._session, keys, epoch=self.epoch, rate=self.rate, counters=self.counters)
+        region_every = max(1, round(self.rate / settings.region_rate))
+        self._terms = choose_terms(self.world, rate=self.rate / region_every)
+        self._view_scene_message = {**self._scene_message, "balls": Balls.none().to_message()}
+        self._regions = RegionPublisher(
+            self._session,
+            keys,
+            self._terms,
+            epoch=self.epoch,
+            world=self.world,
+            every=region_every,
+            counters=self.counters,
+        )
         tokens: zenoh.Subscriber[Any] = self._session.liveliness().declare_subscriber(
             keys.clients, zenoh.handlers.RingChannel(WAITING_MESSAGES), history=True
         )
@@ -135,7 +155,13 @@ class Server:
         self._now = self.world.tick
         self._balls = self.world.count
         answers = Answers(
-            self._session, keys, epoch=self.epoch, about=self.about, status=self.status, history=self._history
+            self._session,
+            keys,
+            epoch=self.epoch,
+            about=self.about,
+            view=self.view_about,
+            status=self.status,
+            history=self._history,
         )
         self._declared: tuple[Declared, ...] = (inputs, tokens, *answers.declared, *publisher.declared)
 
@@ -159,6 +185,7 @@ class Server:
             if stop.is_set():
                 break
             self._loop.tick()
+            self._regions.turn(self.world)
             self._now, self._balls = self.world.tick, self.world.count
             ticks = None if ticks is None else ticks - 1
             if each_tick is not None:
@@ -190,6 +217,21 @@ class Server:
             tick=self._now,
         )
 
+    def view_about(self) -> ViewAbout:
+        """What a view must know. Safe from any thread."""
+        return ViewAbout(
+            epoch=self.epoch,
+            world=self.settings.world,
+            version=__version__,
+            step_version=_core.STEP_VERSION,
+            scene=self._view_scene_message,
+            model=self.world.model.to_message(),
+            rate=self.rate,
+            tick=self._now,
+            balls=self._balls,
+            regions=self._terms,
+        )
+
     def status(self) -> Status:
         """How it goes. Safe from any thread."""
         with self._lock:
@@ -209,7 +251,7 @@ class Server:
         """Finish the record, leave the network. False if Zenoh did not finish within `timeout` seconds."""
         if self._record is not None:
             self._record.close()
-        closed = close_session(self._session, self._declared, timeout=timeout)
+        closed = close_session(self._session, (*self._declared, *self._regions.declared), timeout=timeout)
         if not closed:
             log.error("the network session did not close within %g s", timeout)
         return closed

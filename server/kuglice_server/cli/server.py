@@ -56,6 +56,9 @@ def server(
             help="Ticks between states whose hash is told. [default: 1; a second's worth above 100,000 balls]"
         ),
     ] = None,
+    region_rate: Annotated[
+        float, typer.Option(help="Times per second that views are told of the regions they look at.")
+    ] = 10.0,
     record: Annotated[Path | None, typer.Option(help="Write a replay file.")] = None,
     threads: Threads = 1,
     seconds: Annotated[
@@ -85,6 +88,7 @@ def server(
         rate=rate,
         snapshot_every=snapshot_every,
         hash_every=hash_every,
+        region_rate=region_rate,
         record=record,
         threads=threads,
         insecure=insecure,

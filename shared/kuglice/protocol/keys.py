@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from kuglice.errors import ProtocolError
@@ -61,6 +62,32 @@ class Keys:
     def status(self) -> str:
         """Query: rates, clients, lateness, what was refused."""
         return self._under("status")
+
+    @property
+    def view(self) -> str:
+        """Query: what a view must know, of a size that does not grow with the balls."""
+        return self._under("view")
+
+    @property
+    def holding(self) -> str:
+        """Put now and then while somebody listens: who plays and what is held."""
+        return self._under("holding")
+
+    def region(self, pace: int, path: Sequence[int]) -> str:
+        """Put while somebody listens: the balls of the quadtree's node at the end of `path`."""
+        return self._under("/".join(["region", str(pace), *map(str, path)]))
+
+    def regions(self, pace: int, path: Sequence[int]) -> str:
+        """The nodes at and below the end of `path`."""
+        return f"{self.region(pace, path)}/**"
+
+    @staticmethod
+    def node_of(key: str) -> tuple[int, ...]:
+        """Path of the node that a region's key belongs to; raises ProtocolError."""
+        digits = key.split("/")[4:]
+        if not all(digit in ("0", "1", "2", "3") for digit in digits):
+            raise ProtocolError(f"key {key[:64]!r}: must end with a path of 0, 1, 2 or 3")
+        return tuple(map(int, digits))
 
     @property
     def inputs(self) -> str:

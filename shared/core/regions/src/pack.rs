@@ -5,7 +5,8 @@
 //! varint lowest id, byte width, then the gaps to the next ids, less one, of that many bits each
 //! x, y, vx, vy: a column each: signed varint lowest, byte width, then the differences to it
 //! shapes: byte kind; 0: varint place in the table for all; 1: a place each, of as many bits as the table needs;
-//!         2: f32 radius each, masses pi radius^2; 3: f64 radius and mass each
+//!         2: 2 bits each for the way it is told; a place each for those of way 0; f32 radius each for those of
+//!         way 1, whose masses are pi radius^2; f64 radius and mass each for those of way 2
 //! ```
 //!
 //! Positions are in steps of `Quanta::position` from the box's left bottom, velocities in steps of `Quanta::velocity`.

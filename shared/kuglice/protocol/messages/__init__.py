@@ -5,16 +5,21 @@ from kuglice.protocol.messages.ack import Ack
 from kuglice.protocol.messages.client_inputs import MAX_INPUTS, ClientInputs, SentInput
 from kuglice.protocol.messages.envelope import PROTOCOL_VERSION, Message
 from kuglice.protocol.messages.history import History
+from kuglice.protocol.messages.holding import Holding
 from kuglice.protocol.messages.part import PART_BYTES, Part
 from kuglice.protocol.messages.refusal import Refusal
+from kuglice.protocol.messages.region import MAX_REGION_BALLS, Region
 from kuglice.protocol.messages.request import SnapshotRequest, TickRange
 from kuglice.protocol.messages.status import ClientStatus, Status
 from kuglice.protocol.messages.stretch import Stretch, StretchedTick
 from kuglice.protocol.messages.tick import MAX_TOLD_TICKS, Tick
+from kuglice.protocol.messages.view_about import PACES, RegionTerms, ViewAbout
 
 __all__ = [
     "MAX_INPUTS",
+    "MAX_REGION_BALLS",
     "MAX_TOLD_TICKS",
+    "PACES",
     "PART_BYTES",
     "PROTOCOL_VERSION",
     "About",
@@ -22,9 +27,12 @@ __all__ = [
     "ClientInputs",
     "ClientStatus",
     "History",
+    "Holding",
     "Message",
     "Part",
     "Refusal",
+    "Region",
+    "RegionTerms",
     "SentInput",
     "SnapshotRequest",
     "Status",
@@ -32,4 +40,5 @@ __all__ = [
     "StretchedTick",
     "Tick",
     "TickRange",
+    "ViewAbout",
 ]

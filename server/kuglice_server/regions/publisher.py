@@ -1,0 +1,136 @@
+"""Regions as they are published: the balls of each node that somebody looks at, and who plays and holds what.
+
+Nodes that nobody looks at are neither packed nor put. An empty node is told when it becomes empty and then once a
+second, so that a message that was lost leaves no ball behind for long. At pace p a node is told every 2^p-th time;
+its number says at which of those, so that they do not all fall into one tick.
+"""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections import Counter
+
+import zenoh
+
+from kuglice import World
+from kuglice.errors import ProtocolError
+from kuglice.protocol import Holding, Keys, Region, RegionTerms, encode
+from kuglice_server.regions.watch import Watch, Watched, is_heard
+
+__all__ = ["RegionPublisher"]
+
+log = logging.getLogger(__name__)
+
+EMPTY = b"\0"
+SAID_AGAIN_SECONDS = 1.0
+
+
+class RegionPublisher:
+    """`every`: ticks between two messages about one node at pace 0. Not for two threads at once."""
+
+    def __init__(
+        self,
+        session: zenoh.Session,
+        keys: Keys,
+        terms: RegionTerms,
+        *,
+        epoch: int,
+        world: World,
+        every: int,
+        counters: Counter[str],
+    ) -> None:
+        self._epoch = epoch
+        self._every = every
+        self._again = max(1, round(SAID_AGAIN_SECONDS * terms.rate))
+        self._counters = counters
+        self._packer = terms.packer(world.scene.box)
+        self._watch = Watch(session, keys, terms.depth)
+        self._holding = session.declare_publisher(
+            keys.holding,
+            congestion_control=zenoh.CongestionControl.DROP,
+            priority=zenoh.Priority.DATA,
+            reliability=zenoh.Reliability.BEST_EFFORT,
+        )
+        self._held: tuple[object, object] | None = None
+        self._held_at = 0
+        self._told_empty: dict[tuple[int, int], int] = {}
+        self.seconds = 0.0
+
+    @property
+    def declared(self) -> tuple[zenoh.Publisher, ...]:
+        """For closing."""
+        return (self._holding, *self._watch.declared)
+
+    def turn(self, world: World) -> None:
+        """Publish what is due in the state that `world` is in. Never blocks, and raises nothing but bugs."""
+        if world.tick % self._every:
+            return
+        began = time.perf_counter()
+        turn = world.tick // self._every
+        self._tell_holding(world, turn)
+        watched = self._watch.looked_at()
+        due = [one for one in watched if (turn + one.node) % (1 << one.pace) == 0]
+        if due:
+            self._tell(world, due, turn)
+        if self._told_empty:
+            here = {(one.pace, one.node) for one in watched}
+            self._told_empty = {key: at for key, at in self._told_empty.items() if key in here}
+        self.seconds += time.perf_counter() - began
+
+    def _tell(self, world: World, due: list[Watched], turn: int) -> None:
+        nodes = sorted({one.node for one in due})
+        packed, left_out = world.regions(self._packer, nodes)
+        self._counters["balls not told"] += left_out
+        balls = dict(zip(nodes, packed, strict=True))
+        encoded: dict[int, bytes | None] = {}
+        for one in due:
+            if not self._worth_telling(one, balls[one.node], turn):
+                continue
+            if one.node not in encoded:
+                encoded[one.node] = self._encoded(world.tick, one.node, balls[one.node])
+            data = encoded[one.node]
+            if data is not None:
+                self._put(one.publisher, data)
+
+    def _worth_telling(self, one: Watched, balls: bytes, turn: int) -> bool:
+        key = (one.pace, one.node)
+        if balls != EMPTY:
+            self._told_empty.pop(key, None)
+            return True
+        if turn - self._told_empty.get(key, turn - self._again) < self._again:
+            return False
+        self._told_empty[key] = turn
+        return True
+
+    def _encoded(self, tick: int, node: int, balls: bytes) -> bytes | None:
+        try:
+            return encode(Region(epoch=self._epoch, tick=tick, node=node, balls=balls))
+        except ProtocolError as error:
+            if not self._counters["regions too large"]:
+                log.error("region %d is not told: %s", node, error)
+            self._counters["regions too large"] += 1
+            return None
+
+    def _tell_holding(self, world: World, turn: int) -> None:
+        if not is_heard(self._holding):
+            return
+        now = (world.players, world.held)
+        if now == self._held and turn - self._held_at < self._again:
+            return
+        self._held, self._held_at = now, turn
+        self._put(
+            self._holding,
+            encode(Holding.of(self._epoch, world)),
+        )
+
+    def _put(self, publisher: zenoh.Publisher, data: bytes) -> None:
+        try:
+            publisher.put(data)
+        except zenoh.ZError as error:
+            if not self._counters["unpublished"]:
+                log.error("a region cannot be published: %s", error)
+            self._counters["unpublished"] += 1
+            return
+        self._counters["regions out"] += 1
+        self._counters["region bytes out"] += len(data)
