@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 from kuglice import World
 from kuglice.errors import JoinError, ProtocolError
-from kuglice.inputs import Input
+from kuglice.inputs import Input, rounded
 from kuglice.protocol import DEFAULT_ENDPOINT, PART_BYTES, Ack, Assembly, Keys, Tick, check_name
 from kuglice_client.bots import BOTS, Sight
 from kuglice_client.clock import Clock
@@ -53,7 +53,8 @@ class ClientSettings:
 
     `wait`: seconds to keep trying to join. `lose`: called with the number of each tick message; those for
     which it says True are thrown away on arrival, to see them heal. `input_delay`: ticks between acting and
-    the effect, for those who prefer fewer corrections of others to acting at once.
+    the effect, for those who prefer fewer corrections of others to acting at once. `exact_inputs`: send every
+    bit of a force instead of two bytes per number (kuglice.inputs.rounded).
     """
 
     connect: tuple[str, ...] = (DEFAULT_ENDPOINT,)
@@ -63,6 +64,7 @@ class ClientSettings:
     wait: float = 10.0
     lose: Callable[[int], bool] | None = None
     input_delay: int = 0
+    exact_inputs: bool = False
 
     def __post_init__(self) -> None:
         if self.name is not None:
@@ -132,6 +134,8 @@ class Client:
             raise JoinError("a spectator cannot act: join with a name")
         if self.outbox.full:
             raise JoinError("too many inputs are unacknowledged: the server does not answer")
+        if not self.settings.exact_inputs:
+            given = rounded(given, self.joined.scene)
         now = time.monotonic()
         due = math.floor(self.clock.target(now)) - 1
         tick = max(self.prediction.world.tick, due) + self.settings.input_delay

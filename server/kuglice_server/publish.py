@@ -16,7 +16,7 @@ from kuglice_server.repeats import Repeats
 
 __all__ = ["Publisher"]
 
-ENVELOPE_BYTES = 25
+ENVELOPE_BYTES = 21
 """Of a tick message that has nothing to say but its hash."""
 ACK_BYTES = 24
 

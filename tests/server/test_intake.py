@@ -157,12 +157,12 @@ def test_an_input_that_is_none_is_refused_with_its_message(desk, number, reason)
 
 
 def test_who_it_is_comes_from_the_key_not_from_what_it_says(desk):
-    out = bytearray()
+    out = bytearray((PROTOCOL_VERSION,))
     write_varint(out, EPOCH)
     write_varint(out, 1)
     write_signed(out, 1)
     RecordWriter(out).write(pack([Thrust(client=7, sequence=1, x=1.0, y=0.0)]))
-    (ack,) = desk.raw(msgpack.packb({"v": PROTOCOL_VERSION, "i": bytes(out)}))
+    (ack,) = desk.raw(msgpack.packb({"i": bytes(out)}))
     assert ack.client == 1
     desk.step()
     assert [one.client for one in desk.step()] == [1]

@@ -4,12 +4,14 @@ import inspect
 import math
 
 import msgpack
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 import kuglice as kg
 from kuglice import _core, inputs
+from kuglice.inputs.record import NUMBERS
 
 number = st.floats(allow_nan=False, allow_infinity=False)
 above = st.floats(min_value=0, exclude_min=True, allow_infinity=False)
@@ -254,3 +256,48 @@ def test_signatures_are_readable():
     )
     assert str(inspect.signature(kg.Gravity)).startswith("(x: float, y: float, *")
     assert "Validator" not in str(inspect.signature(kg.Scene))
+
+
+@given(
+    st.sampled_from(["thrust", "kick", "attract"]),
+    st.floats(-20, 20, allow_subnormal=True),
+    st.floats(-20, 20),
+    st.floats(-20, 20),
+)
+def test_rounded_numbers_take_two_bytes_and_stay_within_their_bounds(kind, x, y, strength):
+    left, bottom, right, top = SCENE.box
+    exact = {
+        "thrust": kg.Thrust(client=3, sequence=9, x=x, y=y),
+        "kick": kg.Kick(client=3, sequence=9, ball=4, vx=x, vy=y),
+        "attract": kg.Attract(
+            client=3,
+            sequence=9,
+            x=min(max(x, left), right),
+            y=min(max(y, bottom), top),
+            strength=strength,
+        ),
+    }[kind]
+    less = inputs.rounded(exact, SCENE)
+    assert (less.kind, less.client, less.sequence) == (exact.kind, exact.client, exact.sequence)
+    assert inputs.rounded(less, SCENE) == less
+    for name in NUMBERS[kind]:
+        was, now = getattr(exact, name), getattr(less, name)
+        assert float(np.float16(now)) == now
+        assert abs(now - was) <= max(abs(was) / 1024, 2**-24)
+        if kind == "attract" and name in "xy":
+            assert (left, bottom)["xy".index(name)] <= now <= (right, top)["xy".index(name)]
+        else:
+            assert abs(now) <= abs(was)
+
+
+def test_a_spawn_is_not_rounded():
+    spawn = kg.Spawn(x=0.1, y=0.1, radius=0.1, mass=0.1)
+    assert inputs.rounded(spawn, SCENE) == spawn
+
+
+def test_what_two_bytes_cannot_hold_stays_exact():
+    far = kg.Thrust(x=1e9, y=-1e9)
+    assert inputs.rounded(far, SCENE) == far
+    narrow = SCENE.model_copy(update={"box": (1000.01, 1000.01, 1000.02, 1000.02)})
+    point = kg.Attract(x=1000.01, y=1000.02, strength=1.0)
+    assert inputs.rounded(point, narrow) == point

@@ -16,6 +16,9 @@ __all__ = ["Bot", "Sight"]
 
 Vector = NDArray[np.float64]
 
+STEPS = 16
+"""Of thrust, from none to all: a bot that hardly changes its mind has nothing to say."""
+
 
 @dataclass(frozen=True)
 class Sight:
@@ -75,8 +78,9 @@ class Sight:
         force = float(self.world.mass[self.index]) * (velocity - self.velocities[self.index]) / seconds
         length = float(np.hypot(*force))
         if length > limit:
-            # A hair below, so that rounding does not push it over the bound that the server checks.
-            force = force * (limit * (1 - 1e-9) / length)
+            force = force * (limit / length)
+        # Towards 0, so that it stays within the bound that the server checks.
+        force = np.trunc(force * (STEPS / limit)) * (limit / STEPS)
         return Thrust(x=float(force[0]), y=float(force[1]))
 
 

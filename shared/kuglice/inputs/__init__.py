@@ -5,6 +5,7 @@ from kuglice.inputs.joining import join
 from kuglice.inputs.kinds import KINDS, OWNER, Attract, Input, Join, Kick, Leave, Remove, Spawn, Thrust
 from kuglice.inputs.message import from_message, to_message
 from kuglice.inputs.record import pack, unpack
+from kuglice.inputs.rounding import rounded
 
 __all__ = [
     "KINDS",
@@ -21,6 +22,7 @@ __all__ = [
     "from_message",
     "join",
     "pack",
+    "rounded",
     "to_message",
     "unpack",
 ]

@@ -21,11 +21,13 @@ _SHORT.maxstring = _SHORT.maxother = 80
 
 
 def encode(message: Message) -> bytes:
-    """A msgpack map: version `v`, kind, and the message's own fields; of one that is compact, its bytes.
+    """A msgpack map: version `v`, kind, and the message's own fields; of one that is compact, only its bytes.
 
     Raises ProtocolError if it is too large.
     """
-    body = {"v": PROTOCOL_VERSION, **message.to_body()}
+    body = message.to_body()
+    if not isinstance(message, CompactMessage):
+        body = {"v": PROTOCOL_VERSION, **body}
     data: bytes = msgpack.packb(body)
     if len(data) > message.max_bytes:
         raise ProtocolError(
@@ -41,19 +43,21 @@ def decode(data: bytes, *kinds: type[M]) -> M:
     if len(data) > bound:
         raise ProtocolError(f"message {names}: {len(data)} bytes, at most {bound} allowed")
     body = _unpack(data, names)
+    kind = next((kind for kind in kinds if _is(kind, body)), None)
     version = body.pop("v", None)
+    if kind is not None and issubclass(kind, CompactMessage):
+        version = next(iter(body[kind.letter]), None)
     if version != PROTOCOL_VERSION:
         raise ProtocolError(
             f"message {names}: protocol version {_SHORT.repr(version)}, this side speaks {PROTOCOL_VERSION}"
         )
-    kind = next((kind for kind in kinds if _is(kind, body)), None)
     if kind is None:
         raise ProtocolError(f"message {_SHORT.repr(body.get('kind', list(body)))}: expected {names}")
     if len(data) > kind.max_bytes:
         raise ProtocolError(f"message {kind.kind!r}: {len(data)} bytes, at most {kind.max_bytes} allowed")
     try:
         if issubclass(kind, CompactMessage):
-            return kind.read(body[kind.letter])
+            return kind.read(body[kind.letter][1:])
         del body["kind"]
         return kind.from_body(body)
     except ValidationError as error:

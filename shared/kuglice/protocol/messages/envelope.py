@@ -8,7 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 __all__ = ["PROTOCOL_VERSION", "U64", "CompactMessage", "Message", "TickNumber"]
 
-PROTOCOL_VERSION = 2
+PROTOCOL_VERSION = 3
 """Raised by one when an old reader would misread a new message."""
 
 U64 = Annotated[int, Field(ge=0, lt=2**64)]
@@ -41,14 +41,15 @@ class Message(BaseModel):
 class CompactMessage(Message):
     """One that goes out at every tick: the map holds a single value, bytes, and its key `letter` says the kind.
 
-    Words for keys would cost more than all that most of these messages have to say.
+    The first byte is the protocol's version. Words for keys would cost more than all that most of these messages
+    have to say.
     """
 
     letter: ClassVar[str]
 
     def to_body(self) -> dict[str, Any]:
         """As bytes."""
-        out = bytearray()
+        out = bytearray((PROTOCOL_VERSION,))
         self.write(out)
         return {self.letter: bytes(out)}
 
