@@ -269,8 +269,12 @@ impl World {
         Ok(())
     }
 
-    fn snapshot<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
-        PyBytes::new(py, &self.inner.snapshot())
+    fn snapshot<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let saving = self.inner.saving();
+        PyBytes::new_with(py, saving.len(), |bytes| {
+            saving.write_to(bytes);
+            Ok(())
+        })
     }
 
     #[pyo3(name = "clone")]

@@ -116,6 +116,32 @@ impl Clone for Balls {
 }
 
 impl Balls {
+    /// Balls in the order of their ids, which ascend.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] naming the ball and its number that is out of bounds.
+    pub(crate) fn from_columns(
+        position: Vec<Vec2>,
+        velocity: Vec<Vec2>,
+        radius: Vec<f64>,
+        mass: Vec<f64>,
+        id: Vec<u64>,
+    ) -> Result<Balls, Error> {
+        let mut balls = Balls {
+            position,
+            velocity,
+            radius,
+            mass,
+            id,
+            ..Balls::default()
+        };
+        for (index, id) in balls.id.iter().enumerate() {
+            (balls.ball(index).check()).map_err(|error| Error::Scene(format!("ball {id}: {error}")))?;
+        }
+        balls.uniform = balls.find_uniform();
+        Ok(balls)
+    }
+
     /// Number of balls.
     #[must_use]
     pub fn len(&self) -> usize {

@@ -2,6 +2,9 @@
 
 use crate::{Error, Vec2, hash};
 
+/// Of the checksum at the end.
+pub(crate) const SUM_BYTES: usize = 8;
+
 /// Appends numbers to bytes.
 #[derive(Default)]
 pub(crate) struct Writer {
@@ -46,8 +49,9 @@ impl Writer {
         self.bytes.extend_from_slice(bytes);
     }
 
-    pub(crate) fn reserve(&mut self, bytes: usize) {
-        self.bytes.reserve(bytes);
+    /// What was written, for a checksum over more than that.
+    pub(crate) fn unsealed(self) -> Vec<u8> {
+        self.bytes
     }
 
     /// Ends with a checksum over everything before it.
@@ -73,7 +77,7 @@ impl<'a> Reader<'a> {
         what: &'static str,
     ) -> Result<Reader<'a>, Error> {
         let (body, sum) = bytes
-            .split_last_chunk::<8>()
+            .split_last_chunk::<SUM_BYTES>()
             .ok_or_else(|| Error::Snapshot(format!("{what} of {} bytes is cut short", bytes.len())))?;
         let mut reader = Reader { rest: body, what };
         if reader.take(4)? != magic {
@@ -142,6 +146,18 @@ impl<'a> Reader<'a> {
                     self.what
                 ))
             })
+    }
+
+    /// So many rows of words.
+    pub(crate) fn columns<const WORDS: usize>(
+        &mut self,
+        count: usize,
+    ) -> Result<impl Iterator<Item = [u64; WORDS]> + 'a, Error> {
+        let bytes = count.saturating_mul(WORDS * 8);
+        let (words, _) = self.take(bytes)?.as_chunks::<8>();
+        Ok(words
+            .chunks_exact(WORDS)
+            .map(|row| std::array::from_fn(|column| u64::from_le_bytes(row[column]))))
     }
 
     pub(crate) fn bytes(&mut self) -> Result<&'a [u8], Error> {

@@ -4,6 +4,7 @@
 //! the ball's id with its numbers by 64 x 64 -> 128 bit multiplications whose halves are folded, the construction of
 //! Wang Yi's wyhash (public domain); the constants are its secret.
 
+use crate::team::{GRAIN, Team};
 use crate::{Balls, HeldKind, NO_BALL, State, Vec2};
 
 const K0: u64 = 0xa076_1d64_78bd_642f;
@@ -31,24 +32,44 @@ fn ball(id: u64, position: Vec2, velocity: Vec2, radius: f64, mass: f64) -> u64 
     )
 }
 
-fn balls(balls: &Balls) -> u64 {
-    let all = balls.id.iter().zip(&balls.position).zip(&balls.velocity);
-    match balls.uniform() {
-        Some(shape) => all.fold(0, |sum: u64, ((&id, &p), &v)| {
-            sum.wrapping_add(ball(id, p, v, shape.radius, shape.mass))
-        }),
-        None => all
-            .zip(&balls.radius)
-            .zip(&balls.mass)
-            .fold(0, |sum: u64, ((((&id, &p), &v), &r), &m)| {
-                sum.wrapping_add(ball(id, p, v, r, m))
-            }),
+/// Balls that a thread hashes at a time, at least: calling others takes as long as hashing some thousands.
+const MANY_BALLS: usize = 16 * GRAIN;
+
+fn balls(balls: &Balls, team: &Team) -> u64 {
+    let all = (&balls.id[..], &balls.position[..], &balls.velocity[..]);
+    let add = |left: u64, right: u64| left.wrapping_add(right);
+    let sum = || match balls.uniform() {
+        Some(shape) => team.share(
+            all,
+            MANY_BALLS,
+            &|(id, position, velocity)| {
+                let all = id.iter().zip(position).zip(velocity);
+                all.map(|((&id, &p), &v)| ball(id, p, v, shape.radius, shape.mass))
+                    .fold(0, add)
+            },
+            &add,
+        ),
+        None => team.share(
+            (all, &balls.radius[..], &balls.mass[..]),
+            MANY_BALLS,
+            &|((id, position, velocity), radius, mass)| {
+                let all = id.iter().zip(position).zip(velocity).zip(radius).zip(mass);
+                all.map(|((((&id, &p), &v), &r), &m)| ball(id, p, v, r, m))
+                    .fold(0, add)
+            },
+            &add,
+        ),
+    };
+    if balls.len() > MANY_BALLS {
+        team.enter(sum)
+    } else {
+        sum()
     }
 }
 
 /// The hash that stands for a state.
 #[must_use]
-pub(crate) fn state(state: &State) -> u64 {
+pub(crate) fn state(state: &State, team: &Team) -> u64 {
     let mut rest = K4;
     let mut add = |value: u64| rest = fold(rest ^ value ^ K0, K1 ^ rest.rotate_left(29));
     add(state.tick);
@@ -75,26 +96,34 @@ pub(crate) fn state(state: &State) -> u64 {
         add(held.vector.y.to_bits());
         add(held.strength.to_bits());
     }
-    fold(balls(&state.balls) ^ K3, rest ^ K2).wrapping_add(rest)
+    fold(balls(&state.balls, team) ^ K3, rest ^ K2).wrapping_add(rest)
 }
 
-/// A checksum of bytes, to find damage (not to resist an attacker).
+/// Bytes that the checksum takes in at once, two words for each of its lanes.
+const BLOCK: usize = 128;
+
+/// A checksum of bytes, to find damage (not to resist an attacker). Lanes that do not wait for each other take turns: one
+/// alone would wait for its own multiplications most of the time.
 #[must_use]
 pub(crate) fn checksum(bytes: &[u8]) -> u64 {
-    let mut sum = fold(bytes.len() as u64 ^ K0, K1);
-    let mut words = bytes.chunks_exact(16);
-    let half = |chunk: &[u8]| {
-        chunk
-            .iter()
-            .rev()
-            .fold(0u64, |word, &byte| (word << 8) | u64::from(byte))
-    };
-    for chunk in &mut words {
-        sum = fold(sum ^ half(&chunk[..8]) ^ K2, half(&chunk[8..]) ^ K3);
+    let mut lanes = [K4; BLOCK / 16];
+    let (blocks, rest) = bytes.as_chunks::<BLOCK>();
+    for block in blocks {
+        for (lane, [low, high]) in lanes.iter_mut().zip(words(block)) {
+            *lane = fold(*lane ^ low ^ K2, high ^ K3);
+        }
     }
-    let rest = words.remainder();
-    let split = rest.len().min(8);
-    fold(sum ^ half(&rest[..split]) ^ K4, half(&rest[split..]) ^ K0)
+    let start = fold(bytes.len() as u64 ^ K0, K1);
+    let sum = lanes.iter().fold(start, |sum, lane| fold(sum ^ lane ^ K3, K0));
+    let mut last = [0; BLOCK];
+    last[..rest.len()].copy_from_slice(rest);
+    words(&last).fold(sum, |sum, [low, high]| fold(sum ^ low ^ K2, high ^ K3))
+}
+
+fn words(block: &[u8; BLOCK]) -> impl Iterator<Item = [u64; 2]> + '_ {
+    let (words, _) = block.as_chunks::<8>();
+    let word = |at: usize| u64::from_le_bytes(words[at]);
+    (0..BLOCK / 16).map(move |pair| [word(2 * pair), word(2 * pair + 1)])
 }
 
 #[cfg(test)]
@@ -119,7 +148,8 @@ mod tests {
 
     #[test]
     fn every_number_counts() {
-        let first = super::state(&sample());
+        let alone = Team::default();
+        let first = super::state(&sample(), &alone);
         let changes: [fn(&mut State); 9] = [
             |s| s.tick += 1,
             |s| s.next_id += 1,
@@ -139,19 +169,21 @@ mod tests {
         for change in changes {
             let mut other = sample();
             change(&mut other);
-            assert_ne!(super::state(&other), first);
+            assert_ne!(super::state(&other, &alone), first);
         }
     }
 
     #[test]
     fn checksums_see_each_bit() {
-        let bytes: Vec<u8> = (0..45).collect();
+        // Two blocks and a part of one.
+        let bytes: Vec<u8> = (0..=255).chain(0..45).collect();
         let sum = checksum(&bytes);
         for bit in 0..bytes.len() * 8 {
             let mut other = bytes.clone();
             other[bit / 8] ^= 1 << (bit % 8);
             assert_ne!(checksum(&other), sum, "bit {bit}");
         }
-        assert_ne!(checksum(&bytes[..44]), sum);
+        assert_ne!(checksum(&bytes[..300]), sum);
+        assert_ne!(checksum(&[&bytes[..], &[0]].concat()), sum);
     }
 }

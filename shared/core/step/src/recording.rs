@@ -4,7 +4,8 @@ use crate::codec::{Reader, Writer};
 use crate::{Error, Input, Model, Rules, World, read_inputs, write_inputs};
 
 const MAGIC: &[u8; 4] = b"KGRE";
-const VERSION: u32 = 1;
+/// 2: another checksum.
+const VERSION: u32 = 2;
 const WHAT: &str = "recording";
 
 /// A run that can be made again.

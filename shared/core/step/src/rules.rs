@@ -7,7 +7,8 @@ use crate::force::{self, Force};
 use crate::{Error, State};
 
 const MAGIC: &[u8; 4] = b"KGRU";
-const VERSION: u32 = 1;
+/// 2: another checksum.
+const VERSION: u32 = 2;
 const WHAT: &str = "rules of a world";
 
 /// Box, walls, restitution, tick rate and forces of a world.

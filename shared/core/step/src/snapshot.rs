@@ -1,17 +1,85 @@
 //! Snapshots: a whole state as bytes, versioned and checksummed. What is restored continues bit for bit.
 
-use crate::codec::{Reader, Writer};
-use crate::{Counters, Error, Held, HeldKind, NO_BALL, NewBall, Player, State, Vec2};
+use crate::codec::{Reader, SUM_BYTES, Writer};
+use crate::{Balls, Counters, Error, Held, HeldKind, NO_BALL, Player, State, Vec2, hash};
 
 const MAGIC: &[u8; 4] = b"KGSN";
-const VERSION: u32 = 1;
+/// 2: the checksum is computed in lanes, which made snapshots of 10,000 balls four times as fast.
+const VERSION: u32 = 2;
 const WHAT: &str = "snapshot";
 
-/// Writes a state.
-pub(crate) fn write(state: &State) -> Vec<u8> {
-    let balls = &state.balls;
+/// A snapshot about to be written: how long it is shows before, so that it is written to where it belongs.
+pub struct Saving<'a> {
+    balls: &'a Balls,
+    head: Vec<u8>,
+    tail: Vec<u8>,
+}
+
+impl Saving<'_> {
+    pub(crate) fn new(state: &State) -> Saving<'_> {
+        Saving {
+            balls: &state.balls,
+            head: head(state),
+            tail: tail(state),
+        }
+    }
+
+    /// Its number of bytes.
+    #[must_use]
+    #[expect(clippy::len_without_is_empty, reason = "it never is")]
+    pub fn len(&self) -> usize {
+        let shapes = if self.balls.uniform().is_some() { 0 } else { 16 };
+        self.head.len() + self.balls.len() * (shapes + 40) + self.tail.len() + SUM_BYTES
+    }
+
+    /// Writes it to `bytes`, of exactly that length.
+    ///
+    /// # Panics
+    /// If the length is another.
+    pub fn write_to(&self, bytes: &mut [u8]) {
+        assert_eq!(bytes.len(), self.len(), "a snapshot is as long as it says");
+        let balls = self.balls;
+        let (body, sum) = bytes.split_at_mut(bytes.len() - SUM_BYTES);
+        let (head, rest) = body.split_at_mut(self.head.len());
+        head.copy_from_slice(&self.head);
+        let rest = if balls.uniform().is_some() {
+            rest
+        } else {
+            each(balls, rest, |index| {
+                [balls.radius[index], balls.mass[index]].map(f64::to_bits)
+            })
+        };
+        let rest = each(balls, rest, |index| [balls.id[index]]);
+        let rest = each(balls, rest, |index| bits(balls.position[index]));
+        let rest = each(balls, rest, |index| bits(balls.velocity[index]));
+        rest.copy_from_slice(&self.tail);
+        sum.copy_from_slice(&hash::checksum(body).to_le_bytes());
+    }
+}
+
+fn bits(vector: Vec2) -> [u64; 2] {
+    [vector.x.to_bits(), vector.y.to_bits()]
+}
+
+/// Writes so many words of each ball, in id order; returns what is left.
+fn each<'a, const WORDS: usize>(
+    balls: &Balls,
+    bytes: &'a mut [u8],
+    words: impl Fn(usize) -> [u64; WORDS],
+) -> &'a mut [u8] {
+    let (bytes, rest) = bytes.split_at_mut(balls.len() * WORDS * 8);
+    let (slots, _) = bytes.as_chunks_mut::<8>();
+    for (slots, index) in slots.chunks_exact_mut(WORDS).zip(balls.by_id()) {
+        for (slot, word) in slots.iter_mut().zip(words(index)) {
+            *slot = word.to_le_bytes();
+        }
+    }
+    rest
+}
+
+/// All before the balls, and what they share.
+fn head(state: &State) -> Vec<u8> {
     let mut writer = Writer::new(MAGIC, VERSION);
-    writer.reserve(128 + balls.len() * 56 + state.players.len() * 12 + state.held.len() * 29);
     writer.u32(crate::STEP_VERSION);
     writer.u64(state.tick);
     writer.u64(state.variable_ticks);
@@ -26,30 +94,21 @@ pub(crate) fn write(state: &State) -> Vec<u8> {
     for counter in [collisions, wall_hits, inputs_applied, inputs_ignored] {
         writer.u64(counter);
     }
-    writer.count(balls.len());
-    match balls.uniform() {
+    writer.count(state.balls.len());
+    match state.balls.uniform() {
         Some(shape) => {
             writer.u8(1);
             writer.f64(shape.radius);
             writer.f64(shape.mass);
         }
-        None => {
-            writer.u8(0);
-            for index in balls.by_id() {
-                writer.f64(balls.radius[index]);
-                writer.f64(balls.mass[index]);
-            }
-        }
+        None => writer.u8(0),
     }
-    for index in balls.by_id() {
-        writer.u64(balls.id[index]);
-    }
-    for index in balls.by_id() {
-        writer.vec2(balls.position[index]);
-    }
-    for index in balls.by_id() {
-        writer.vec2(balls.velocity[index]);
-    }
+    writer.unsealed()
+}
+
+/// All behind the balls.
+fn tail(state: &State) -> Vec<u8> {
+    let mut writer = Writer::default();
     writer.count(state.players.len());
     for player in &state.players {
         writer.u32(player.client);
@@ -65,7 +124,7 @@ pub(crate) fn write(state: &State) -> Vec<u8> {
         writer.vec2(held.vector);
         writer.f64(held.strength);
     }
-    writer.seal()
+    writer.unsealed()
 }
 
 /// Reads a state and checks all that a step relies on.
@@ -106,34 +165,26 @@ pub(crate) fn read(bytes: &[u8]) -> Result<State, Error> {
 
 fn read_balls(reader: &mut Reader<'_>, state: &mut State) -> Result<(), Error> {
     let count = reader.count(40)?;
-    let uniform = reader.u8()? != 0;
-    let shapes = if uniform {
-        vec![(reader.f64()?, reader.f64()?); count]
+    let (radius, mass) = if reader.u8()? == 0 {
+        let shapes = reader.columns::<2>(count)?;
+        shapes
+            .map(|[radius, mass]| (f64::from_bits(radius), f64::from_bits(mass)))
+            .unzip()
     } else {
-        (0..count)
-            .map(|_| Ok((reader.f64()?, reader.f64()?)))
-            .collect::<Result<_, Error>>()?
+        (vec![reader.f64()?; count], vec![reader.f64()?; count])
     };
-    let ids = (0..count).map(|_| reader.u64()).collect::<Result<Vec<_>, _>>()?;
-    if !ids.is_sorted_by(|a, b| a < b) || ids.last().is_some_and(|&last| last >= state.next_id) {
+    let id: Vec<u64> = reader.columns::<1>(count)?.map(|[id]| id).collect();
+    if !id.is_sorted_by(|a, b| a < b) || id.last().is_some_and(|&last| last >= state.next_id) {
         return Err(Error::Snapshot(format!(
             "snapshot's ball ids must ascend and stay below the next id, {}",
             state.next_id
         )));
     }
-    let positions = (0..count).map(|_| reader.vec2()).collect::<Result<Vec<_>, _>>()?;
-    for index in 0..count {
-        let (radius, mass) = shapes[index];
-        let ball = NewBall {
-            position: positions[index],
-            velocity: reader.vec2()?,
-            radius,
-            mass,
-        };
-        ball.check()
-            .map_err(|error| Error::Snapshot(format!("ball {} of the snapshot: {error}", ids[index])))?;
-        state.balls.push(ids[index], ball);
-    }
+    let vector = |[x, y]: [u64; 2]| Vec2::new(f64::from_bits(x), f64::from_bits(y));
+    let position = reader.columns(count)?.map(vector).collect();
+    let velocity = reader.columns(count)?.map(vector).collect();
+    state.balls = Balls::from_columns(position, velocity, radius, mass, id)
+        .map_err(|error| Error::Snapshot(format!("the snapshot's {error}")))?;
     Ok(())
 }
 

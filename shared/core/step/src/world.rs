@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::broadphase::{Broadphase, Pair};
 use crate::contacts::{Contacts, Pairs, Substep};
 use crate::force::{Field, HeldNow};
+use crate::snapshot::Saving;
 use crate::team::GRAIN;
 use crate::{
     Error, Held, Input, Model, NO_BALL, NewBall, Player, Rules, State, Team, Vec2, apply, energy, hash,
@@ -325,13 +326,22 @@ impl World {
     /// The 64 bits that stand for the state.
     #[must_use]
     pub fn state_hash(&self) -> u64 {
-        hash::state(&self.state)
+        hash::state(&self.state, &self.team)
     }
 
     /// The state as bytes.
     #[must_use]
     pub fn snapshot(&self) -> Vec<u8> {
-        snapshot::write(&self.state)
+        let saving = self.saving();
+        let mut bytes = vec![0; saving.len()];
+        saving.write_to(&mut bytes);
+        bytes
+    }
+
+    /// The same, to be written to memory that somebody else has.
+    #[must_use]
+    pub fn saving(&self) -> Saving<'_> {
+        Saving::new(&self.state)
     }
 
     /// Kinetic energy of the balls that can move.

@@ -113,6 +113,16 @@ proptest! {
 }
 
 #[test]
+fn a_snapshot_of_an_older_format_is_refused_by_its_version() {
+    let mut bytes = world("overlap", 3).snapshot();
+    bytes[4] = 1;
+    let Err(Error::Snapshot(message)) = World::restore(rules(), model("overlap"), &bytes) else {
+        panic!("it was restored")
+    };
+    assert_eq!(message, "snapshot has version 1, this build reads version 2");
+}
+
+#[test]
 fn copying_into_a_world_makes_it_equal() {
     let (mut one, mut other) = (world("event", 20), world("event", 20));
     let clone = one.clone();

@@ -37,10 +37,7 @@ def _memcpy(bytes_: int) -> Callable[[], object]:
 
 def _copies() -> Mapping[str, Contender]:
     world = World(gas(n=BALLS), Model(integrator="verlet", contacts="overlap"))
-    # On two threads from the same state: clones share the threads of what they were made from.
-    threaded = World(world.scene, world.model, threads=2)
-    for each in (world, threaded):
-        each.run(10)
+    world.run(10)
     other = world.clone()
     data = world.snapshot()
     calls: dict[str, Callable[[], object]] = {
@@ -51,7 +48,6 @@ def _copies() -> Mapping[str, Contender]:
         "snapshot": world.snapshot,
         "restore": lambda: World.restore(world.scene, data, world.model),
         "state_hash": lambda: world.state_hash,
-        "state_hash, 2 threads": lambda: threaded.state_hash,
     }
     return {name: Contender(_again(call), TIMES, "ns per call") for name, call in calls.items()}
 

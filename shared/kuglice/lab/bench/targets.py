@@ -105,7 +105,7 @@ TARGETS: Sequence[Target] = (
         for contacts in ("overlap", "event")
     ),
     Target("clone / memcpy", 1.3, "times", _ratio(COPIES, "clone", CLONED)),
-    Target("copy_from / memcpy", 1.3, "times", _ratio(COPIES, "copy_from", CLONED)),
+    Target("copy_from / memcpy", 1.3, "times", _ratio(COPIES, "copy_from", SNAPSHOT)),
     Target("snapshot / memcpy", 2, "times", _ratio(COPIES, "snapshot", SNAPSHOT)),
     Target("state_hash / memcpy", 2, "times", _ratio(COPIES, "state_hash", SNAPSHOT)),
     *(
