@@ -20,6 +20,8 @@ const MARGIN: f64 = 1.0 + 1e-9;
 /// Cells per disc, at the most: more than balls at any packing that collide often can use.
 const CELLS_PER_DISC: f64 = 6.0;
 const MOST_LEVELS: usize = 16;
+/// Cells that need be no more than so many times as wide to hold all discs are made as wide as that.
+const NEARLY: f64 = 1.5;
 
 /// One level.
 #[derive(Clone, Copy, Debug, Default)]
@@ -113,6 +115,15 @@ impl Level {
         })
     }
 
+    /// About what it costs to look among the discs of `other` for those that meet the discs of this level: runs and what
+    /// is compared in them.
+    pub(super) fn cost_of_looking_in(&self, other: &Level) -> f64 {
+        let rows = self.size / other.size + 2.0;
+        let cells = f64::from(other.rows) * f64::from(other.stride);
+        let compared = rows * f64::from(other.population) / cells / LANES as f64;
+        f64::from(self.population) * rows * (1.0 + compared)
+    }
+
     /// The rectangle (left, bottom, right, top) of a cell.
     pub(super) fn rectangle(&self, cell: usize) -> [f64; 4] {
         let (row, column) = (
@@ -187,10 +198,18 @@ impl Levels {
         let [left, bottom, right, top] = root;
         let mut origin = Vec2::new(left, bottom);
         let mut extent = Vec2::new(right - left, top - bottom);
-        let wanted = 2.0 * finest * MARGIN;
+        let mut wanted = 2.0 * finest * MARGIN;
         if extent.x * extent.y > wanted * wanted * most_cells || extent.x.max(extent.y) > wanted * most_cells
         {
             (origin, extent) = bounds(discs);
+        }
+        if finest < most {
+            // Each level is one more place to look: where a cell of the next one would hold a disc or so, start there.
+            wanted = wanted.max((extent.x * extent.y / discs.len() as f64).sqrt());
+            let widest = 2.0 * most * MARGIN;
+            if wanted * NEARLY >= widest {
+                wanted = widest;
+            }
         }
         let longest = extent.x.max(extent.y);
         let mut size = wanted

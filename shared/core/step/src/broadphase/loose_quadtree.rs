@@ -144,14 +144,14 @@ impl LooseQuadtree {
         }
     }
 
-    /// Pairs of discs of one level with those of a wider one.
-    fn pairs_across(&self, wider: &Level, slots: Range<usize>, discs: &Discs<'_>, found: &mut Vec<Pair>) {
+    /// Pairs of discs of one level with those of another one.
+    fn pairs_across(&self, other: &Level, slots: Range<usize>, discs: &Discs<'_>, found: &mut Vec<Pair>) {
         let margin = self.scale.probing(0.0);
         for slot in slots {
             let index = self.sorted.index[slot];
             let (center, reach) = (discs.center[index as usize], discs.reach.of(index as usize));
             let probe = Probe::<true>::of(&self.sorted, slot, margin);
-            for run in wider.runs(center, reach) {
+            for run in other.runs(center, reach) {
                 let run = self.offsets[run.start] as usize..self.offsets[run.end] as usize;
                 probe.each(run, |other| found.push(pair(index, self.sorted.index[other])));
             }
@@ -172,11 +172,21 @@ impl LooseQuadtree {
             } else {
                 self.pairs_in_level::<true>(level, slots.clone(), found);
             }
-            for wider in levels[at + 1..].iter().filter(|level| level.population > 0) {
-                self.pairs_across(wider, slots.clone(), discs, found);
+            for (other_at, other) in levels.iter().enumerate() {
+                if other_at != at && other.population > 0 && looks(levels, at, other_at) {
+                    self.pairs_across(other, slots.clone(), discs, found);
+                }
             }
         }
     }
+}
+
+/// Whether the discs of a level look among those of the other, and not the other way round: many small discs would
+/// look in vain for a few large ones.
+fn looks(levels: &[Level], at: usize, other: usize) -> bool {
+    let (narrow, wide) = (&levels[at.min(other)], &levels[at.max(other)]);
+    let narrow_looks = narrow.cost_of_looking_in(wide) <= wide.cost_of_looking_in(narrow);
+    narrow_looks == (at < other)
 }
 
 /// Two discs as a pair.
