@@ -54,7 +54,9 @@ class ClientSettings:
     `wait`: seconds to keep trying to join. `lose`: called with the number of each tick message; those for
     which it says True are thrown away on arrival, to see them heal. `input_delay`: ticks between acting and
     the effect, for those who prefer fewer corrections of others to acting at once. `exact_inputs`: send every
-    bit of a force instead of two bytes per number (kuglice.inputs.rounded).
+    bit of a force instead of two bytes per number (kuglice.inputs.rounded). `check_snapshots`: compare the
+    server's published snapshots too, byte by byte; hashes are compared anyway, and snapshots cost most of the
+    traffic.
     """
 
     connect: tuple[str, ...] = (DEFAULT_ENDPOINT,)
@@ -65,6 +67,7 @@ class ClientSettings:
     lose: Callable[[int], bool] | None = None
     input_delay: int = 0
     exact_inputs: bool = False
+    check_snapshots: bool = False
 
     def __post_init__(self) -> None:
         if self.name is not None:
@@ -96,7 +99,7 @@ class Client:
             world = settings.world or find_world(self.link, deadline=deadline, stop=self.stop)
             self._keys = Keys(world)
             # First the stream, then the rest: what happens while we join is in its buffer.
-            self.link.listen(self._keys)
+            self.link.listen(self._keys, snapshots=settings.check_snapshots)
             if settings.name is not None:
                 self.link.show(settings.name)
             self._other_epochs: set[int] = set()
@@ -224,7 +227,9 @@ class Client:
         about = joined.about
         self.joined = joined
         self.follower = Follower(joined.world)
-        self.reconciler = Reconciler(self.follower, snapshot_every=about.snapshot_every)
+        self.reconciler = Reconciler(
+            self.follower, snapshot_every=about.snapshot_every if self.settings.check_snapshots else None
+        )
         self.prediction = Prediction(joined.world, limit=max(4, round(PREDICTED_SECONDS * about.rate)))
         self.clock = Clock(
             rate=about.rate,

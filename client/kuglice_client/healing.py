@@ -45,8 +45,11 @@ class Healing:
 
     def _ask(self) -> None:
         gap = self._follower.gap
-        if self._snapshot_needed or self._reconciler.wrong_since is not None:
+        if self._snapshot_needed:
             request: SnapshotRequest | TickRange = SnapshotRequest(epoch=self._epoch, at=None)
+        elif self._reconciler.wrong_since is not None:
+            # From before it went wrong: run on from there, it shows what differed first.
+            request = SnapshotRequest(epoch=self._epoch, at=self._reconciler.wrong_since)
         elif gap is not None:
             request = TickRange(epoch=self._epoch, first=gap[0], end=gap[1])
         else:

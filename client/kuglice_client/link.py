@@ -56,11 +56,15 @@ class Link:
         self._snapshots: Samples | None = None
         self._snapshot_ring = 0
 
-    def listen(self, keys: Keys) -> None:
-        """Subscribe to the tick stream and to snapshots; from now on they are buffered."""
+    def listen(self, keys: Keys, *, snapshots: bool = False) -> None:
+        """Subscribe to the tick stream, and to snapshots where they are wanted; from now on they are buffered."""
         self._keys = keys
         self._ticks = self._subscribe(keys.tick, TICK_RING)
-        self.make_room(SNAPSHOT_RING)
+        if snapshots:
+            self._snapshots, self._snapshot_ring = (
+                self._subscribe(keys.snapshot, SNAPSHOT_RING),
+                SNAPSHOT_RING,
+            )
 
     def show(self, name: str) -> None:
         """Let the server know that the client `name` is here, for as long as this process lives."""
@@ -77,11 +81,10 @@ class Link:
 
     def make_room(self, parts: int) -> None:
         """Hold at least that many parts of snapshots: fewer than one has, and none would ever be whole."""
-        if parts <= self._snapshot_ring:
+        if self._snapshots is None or parts <= self._snapshot_ring:
             return
-        if self._snapshots is not None:
-            self._declared.remove(self._snapshots)
-            self._snapshots.undeclare()  # type: ignore[no-untyped-call]
+        self._declared.remove(self._snapshots)
+        self._snapshots.undeclare()  # type: ignore[no-untyped-call]
         self._snapshot_ring = parts
         self._snapshots = self._subscribe(self._keys.snapshot, parts)
 

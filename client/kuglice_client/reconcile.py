@@ -1,4 +1,4 @@
-"""Is the confirmed world the server's? Every tick by its hash, now and then bit for bit."""
+"""Is the confirmed world the server's? Every tick by its hash, and bit for bit where snapshots are to be checked."""
 
 from __future__ import annotations
 
@@ -23,10 +23,11 @@ LOGGED_DESYNCS = 10
 class Reconciler:
     """Compares; on a mismatch takes the server's state, counts, and reports.
 
-    `snapshot_every`: ticks between the server's snapshots, whose states are kept here for comparison.
+    `snapshot_every`: ticks between the server's snapshots, whose states are kept here for comparison; None: none come
+    but those that are asked for.
     """
 
-    def __init__(self, follower: Follower, *, snapshot_every: int) -> None:
+    def __init__(self, follower: Follower, *, snapshot_every: int | None) -> None:
         self._follower = follower
         self._every = snapshot_every
         self._states: OrderedDict[int, bytes] = OrderedDict()
@@ -89,7 +90,7 @@ class Reconciler:
 
     def _keep(self) -> None:
         world = self._follower.world
-        if world.tick % self._every == 0:
+        if self._every is not None and world.tick % self._every == 0:
             self._states[world.tick] = world.snapshot()
             while len(self._states) > KEPT_STATES:
                 self._states.popitem(last=False)

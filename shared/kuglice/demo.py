@@ -128,7 +128,8 @@ def _client_arguments(settings: DemoSettings, endpoint: str, bot: str) -> list[s
             "--trails": settings.trails,
             "--still-every": settings.seconds / STILLS,
         }
-    return ["client", *(str(word) for option in options.items() for word in option), "--json"]
+    words = [str(word) for option in options.items() for word in option]
+    return ["client", *words, "--check-snapshots", "--json"]
 
 
 def _wait(

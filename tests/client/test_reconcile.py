@@ -141,3 +141,17 @@ def test_snapshots_that_come_long_before_their_ticks_are_all_compared(pair):
         pair.reconciler.confirmed(step)
         assert not pair.reconciler.compare_waiting()
     assert (pair.reconciler.snapshots_checked, pair.reconciler.snapshot_mismatches) == (3, 0)
+
+
+def test_without_published_snapshots_none_of_ones_own_are_kept(authority):
+    """One that was asked for, from before the first wrong state, shows what differed all the same."""
+    pair = Pair(authority)
+    pair.reconciler = Reconciler(pair.follower, snapshot_every=None)
+    pair.run(12)
+    pair.go_wrong()
+    pair.run(15)
+    assert pair.reconciler.wrong_since == 16
+    assert pair.reconciler.received(pair.snapshots[10])
+    (desync,) = pair.reconciler.desyncs
+    assert (desync.tick, desync.differing, desync.found_by) == (16, 1, "hash")
+    assert pair.reconciler.snapshots_checked == 0

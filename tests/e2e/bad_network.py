@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from e2e.processes import Command, until
-from e2e.verdict import assert_all_equal
+from e2e.verdict import CHECKING, assert_all_equal
 from kuglice.lab.network import Conditioner
 from kuglice.replay import Replay
 
@@ -38,7 +38,7 @@ class Play:
         """A client that has joined."""
         acts = () if bot is None else ("--bot", bot)
         client = self._start(
-            *("client", "--connect", self._connect, "--name", name, *acts, "--wait", 30, "--json"),
+            *("client", *CHECKING, "--connect", self._connect, "--name", name, *acts, "--wait", 30, "--json"),
             prefix=self._link.client_prefix,
         )
         until(lambda: "joined world" in client.err, what=f"{name} joins")

@@ -47,7 +47,8 @@ def test_a_world_that_went_wrong_is_found_out_reported_and_replaced(server, endp
         client.follower.replace(flipped)
         wrong = client.reconciler
         playing(client, lambda: wrong.hash_mismatches > 0)
-        assert wrong.wrong_since is not None
+        first_wrong = wrong.wrong_since
+        assert first_wrong is not None
         playing(client, lambda: wrong.wrong_since is None)
         mismatches = wrong.hash_mismatches
         reached = client.confirmed.tick
@@ -58,6 +59,8 @@ def test_a_world_that_went_wrong_is_found_out_reported_and_replaced(server, endp
     assert summary["snapshots_taken"] >= 1
     assert wrong.desyncs
     assert wrong.desyncs[0].tick > tick
+    assert wrong.desyncs[0].found_by == "hash"
+    assert wrong.desyncs[0].tick == first_wrong
     assert any("ball 3:" in line for line in wrong.desyncs[0].balls)
     server.signal(2)
     assert server.wait() == 0

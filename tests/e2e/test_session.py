@@ -5,12 +5,12 @@ from __future__ import annotations
 import pytest
 
 from e2e.processes import until
-from e2e.verdict import assert_all_equal
+from e2e.verdict import CHECKING, assert_all_equal
 
 
 def test_two_clients_and_a_server_agree_on_every_state(start, server, endpoint, tmp_path):
     players = [
-        start("client", "--connect", endpoint, "--bot", bot, "--seconds", 3, "--json")
+        start("client", *CHECKING, "--connect", endpoint, "--bot", bot, "--seconds", 3, "--json")
         for bot in ("chaser", "herder")
     ]
     figures = [player.figures() for player in players]
@@ -26,11 +26,26 @@ def test_two_clients_and_a_server_agree_on_every_state(start, server, endpoint, 
     assert served["inputs_applied"] >= sum(client["inputs_accepted"] for client in figures)
 
 
+def test_without_being_asked_to_check_them_a_client_gets_no_snapshots_and_none_are_made(
+    start, server, endpoint, tmp_path
+):
+    arguments = ("client", "--connect", endpoint, "--bot", "chaser", "--seconds", 2, "--json")
+    plain = start(*arguments).figures()
+    served = start(*arguments, "--check-snapshots").figures()
+    server.signal(2)
+    counts = server.figures()
+    assert_all_equal(tmp_path / "run.kuglice", [plain, served])
+    assert (plain["snapshots_checked"], plain["bytes_per_second_snapshots"]) == (0, 0)
+    assert served["bytes_per_second_snapshots"] > 0
+    # Made while the second one listened, and not before.
+    assert 0 < served["snapshots_checked"] <= counts["snapshots_out"] < counts["ticks"] // 20 - 4
+
+
 def test_a_late_joiner_agrees_from_its_snapshot_on(start, server, endpoint, tmp_path):
-    early = start("client", "--connect", endpoint, "--bot", "orbiter", "--seconds", 4, "--json")
+    early = start("client", *CHECKING, "--connect", endpoint, "--bot", "orbiter", "--seconds", 4, "--json")
     until(lambda: "joined world" in early.err, what="the first client joins")
-    late = start("client", "--connect", endpoint, "--bot", "chaser", "--seconds", 1.5, "--json")
-    watcher = start("client", "--connect", endpoint, "--seconds", 1.5, "--json")
+    late = start("client", *CHECKING, "--connect", endpoint, "--bot", "chaser", "--seconds", 1.5, "--json")
+    watcher = start("client", *CHECKING, "--connect", endpoint, "--seconds", 1.5, "--json")
     figures = [early.figures(), late.figures(), watcher.figures()]
     server.signal(2)
     server.figures()
@@ -42,7 +57,8 @@ def test_a_late_joiner_agrees_from_its_snapshot_on(start, server, endpoint, tmp_
 @pytest.mark.parametrize("share", [0.2, 0.7])
 def test_a_client_that_misses_messages_heals(start, server, endpoint, tmp_path, share):
     player = start(
-        "client", "--connect", endpoint, "--bot", "orbiter", "--seconds", 3, "--lose", share, "--json"
+        *("client", *CHECKING, "--connect", endpoint, "--bot", "orbiter", "--seconds", 3, "--lose", share),
+        "--json",
     )
     figures = player.figures()
     server.signal(2)
@@ -58,7 +74,7 @@ def test_a_world_that_runs_at_another_rate_has_the_same_bits(start, scene, endpo
     server = start(
         "server", scene, "--listen", endpoint, "--rate", 240, "--record", record, "--until-empty", "--json"
     )
-    player = start("client", "--connect", endpoint, "--bot", "chaser", "--seconds", 2, "--json")
+    player = start("client", *CHECKING, "--connect", endpoint, "--bot", "chaser", "--seconds", 2, "--json")
     figures = player.figures()
     assert server.figures()["ticks"] > 300
     assert_all_equal(record, [figures])
@@ -72,7 +88,9 @@ def test_through_a_router_that_runs_already(start, scene, endpoint, tmp_path):
     try:
         record = tmp_path / "run.kuglice"
         server = start("server", scene, "--connect", endpoint, "--record", record, "--until-empty", "--json")
-        player = start("client", "--connect", endpoint, "--bot", "chaser", "--seconds", 2, "--json")
+        player = start(
+            "client", *CHECKING, "--connect", endpoint, "--bot", "chaser", "--seconds", 2, "--json"
+        )
         figures = player.figures()
         server.figures()
         assert_all_equal(record, [figures])

@@ -7,7 +7,10 @@ from typing import Any
 
 from kuglice.replay import Replay
 
-__all__ = ["assert_all_equal"]
+__all__ = ["CHECKING", "assert_all_equal"]
+
+CHECKING = ("--check-snapshots",)
+"""For clients that compare whole states, not hashes alone."""
 
 
 def assert_all_equal(recording: Path, clients: list[dict[str, Any]], *, complete: bool = True) -> None:

@@ -109,3 +109,19 @@ def test_a_snapshot_goes_out_in_parts_that_make_it_again(wire):
     wholes = [assembly.add(decode(part, Part)) for part in parts]
     assert wholes[-1].data == data
     assert (wholes[-1].epoch, wholes[-1].tick) == (9, 60)
+
+
+def test_a_snapshot_that_nobody_listens_for_is_not_made():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        endpoint = f"tcp/127.0.0.1:{probe.getsockname()[1]}"
+    session = open_session(server_configuration(listen=[endpoint], connect=[]))
+    counters: Counter[str] = Counter()
+    publisher = Publisher(session, Keys("test"), epoch=9, rate=60, counters=counters)
+    publisher.snapshot(60, b"state")
+    assert counters == Counter()
+    heard = session.declare_subscriber(Keys("test").snapshot, zenoh.handlers.FifoChannel(10))
+    publisher.snapshot(120, b"state")
+    assert (counters["snapshots out"], counters["messages out"]) == (1, 1)
+    assert decode(heard.recv().payload.to_bytes(), Part).tick == 120
+    close_session(session, [*publisher.declared, heard])

@@ -78,6 +78,13 @@ def client(
     input_delay: Annotated[
         int, typer.Option(min=0, help="Ticks between an own input and its effect; less lead is needed.")
     ] = 0,
+    check_snapshots: Annotated[
+        bool,
+        typer.Option(
+            "--check-snapshots",
+            help="Compare the server's snapshots too, not hashes alone; needs far more bytes.",
+        ),
+    ] = False,
     summary_json: Annotated[
         Path | None, typer.Option(help="Write the closing figures to this file too.")
     ] = None,
@@ -101,6 +108,7 @@ def client(
         wait=wait,
         lose=(lambda _: random.random() < lose) if lose else None,
         input_delay=input_delay,
+        check_snapshots=check_snapshots,
     )
     look = _Look(fps, _pixels(size), style, tuple(overlay or ("tick",)), trails, still_every)
     film_settings = _film_settings(render, look)

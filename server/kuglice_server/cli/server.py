@@ -48,7 +48,10 @@ def server(
         typer.Option(help="Ticks per second of wall clock; same bits. [default: the scene's tick rate]"),
     ] = None,
     snapshot_every: Annotated[
-        int | None, typer.Option(help="Ticks between published snapshots. [default: a second's worth]")
+        int | None,
+        typer.Option(
+            help="Ticks between snapshots, kept for who joins and sent to who checks. [default: a second's worth]"
+        ),
     ] = None,
     hash_every: Annotated[
         int | None,

@@ -142,6 +142,7 @@ class Game:
                 [
                     *("client", *connect, "--name", name, "--wait", JOIN_SECONDS, "--json"),
                     *(("--bot", bots[name]) if name in bots else ()),
+                    *(() if self._snapshot_every is None else ("--check-snapshots",)),
                     *("--summary-json", self._summary(name)),
                 ],
                 prefix=self._link.client_prefix,
