@@ -16,16 +16,16 @@ from kuglice.inputs import Input, rounded
 from kuglice.protocol import DEFAULT_ENDPOINT, PART_BYTES, Ack, Assembly, Keys, Tick, check_name
 from kuglice_client.bots import BOTS, Sight
 from kuglice_client.clock import Clock
-from kuglice_client.correction import Correction
-from kuglice_client.feel import Feel
 from kuglice_client.follow import Follower
 from kuglice_client.healing import Healing
 from kuglice_client.join import Joined, find_world, join
 from kuglice_client.link import Link
 from kuglice_client.outbox import Outbox
+from kuglice_client.pace import judge_pace, step_seconds
 from kuglice_client.pinging import Pinging
 from kuglice_client.prediction import Prediction
 from kuglice_client.reconcile import Reconciler
+from kuglice_client.screen import FRAME_RATE, Frames, Screen
 from kuglice_client.summary import figures, summarise
 from kuglice_client.totals import Totals
 
@@ -42,6 +42,8 @@ IDLE_SECONDS = 0.002
 STALL_SECONDS = 2.0
 LAG_SECONDS = 2.0
 CONFIRM_SECONDS = 0.05
+PREDICT_SECONDS = 0.012
+"""Of one turn: running forward again that takes longer goes on in the next, and frames come in between."""
 SNAPSHOT_BYTES_PER_BALL = 64
 KNOWN_EPOCHS = 64
 MAX_INPUT_DELAY = 30
@@ -91,9 +93,7 @@ class Client:
         self.settings = settings
         self.stop = stop if stop is not None else threading.Event()
         self.totals = Totals()
-        self.correction = Correction()
-        self.feel = Feel()
-        self._alpha = 0.0
+        self.screen = Screen()
         self.link = Link(settings.connect, deadline=deadline, stop=self.stop)
         try:
             world = settings.world or find_world(self.link, deadline=deadline, stop=self.stop)
@@ -123,12 +123,11 @@ class Client:
     @property
     def own(self) -> int | None:
         """Id of one's own ball, once it exists."""
-        return None if self.outbox is None else dict(self.prediction.world.players).get(self.outbox.number)
+        return None if self.outbox is None else dict(self.prediction.shown[1].players).get(self.outbox.number)
 
     def act(self, given: Input) -> None:
         """Do something at the next tick that is predicted, or `input_delay` ticks later.
 
-        Who is behind with predicting acts where it should be: ticks that are long due are over at the server.
         Client and sequence number are filled in here.
 
         Raises JoinError for a spectator, and when too much is unacknowledged to add more.
@@ -140,11 +139,10 @@ class Client:
         if not self.settings.exact_inputs:
             given = rounded(given, self.joined.scene)
         now = time.monotonic()
-        due = math.floor(self.clock.target(now)) - 1
-        tick = max(self.prediction.world.tick, due) + self.settings.input_delay
+        tick = self._acting_tick(now) + self.settings.input_delay
         mine = self.outbox.add(given, tick, lead=self.clock.lead, made=now)
         self.prediction.act(mine, tick)
-        self.feel.acted(mine.sequence, tick, now)
+        self.screen.feel.acted(mine.sequence, tick, now)
 
     def turn(self, now: float) -> float:
         """Take in what came, predict up to now, send.
@@ -159,16 +157,18 @@ class Client:
             self.clock.answered(round_trip)
         target = self.clock.target(now)
         # Who has not even confirmed what is known has no time for guesses.
-        if self._confirm(now):
-            self._predict(math.floor(target))
+        confirmed = self._confirm(now)
+        self._predict(math.floor(target), now, step=confirmed)
         if self.outbox is not None:
             message = self.outbox.message(now, self.confirmed.tick)
             if message is not None:
                 self.link.send(message)
-        self._alpha = max(0.0, min(1.0, target - self.prediction.world.tick))
-        self.correction.frame(now, self.prediction.world.count)
-        self.feel.shown(self.prediction.world.tick, time.monotonic())
-        return self._alpha
+        self.screen.alpha = max(0.0, min(1.0, target - self.prediction.shown[1].tick))
+        return self.screen.alpha
+
+    def frame(self, now: float) -> None:
+        """A frame is drawn: what can be seen in it is counted."""
+        self.screen.frame(now, self.prediction)
 
     def run(
         self,
@@ -179,17 +179,19 @@ class Client:
     ) -> None:
         """Play until `stop`, or for that long.
 
-        `each_frame` gets the client and alpha, `fps` times per second.
+        `each_frame` gets the client and alpha, `fps` times per second; without it frames are only counted.
         """
         begin = time.monotonic()
-        frames = 0
+        filmed = fps is not None and each_frame is not None
+        frames = Frames(fps or FRAME_RATE, all_of_them=filmed)
         while not self.stop.is_set():
             now = time.monotonic()
             alpha = self.turn(now)
             played = now - begin if seconds is None else min(now - begin, seconds)
-            while fps is not None and each_frame is not None and played > frames / fps:
-                each_frame(self, alpha)
-                frames += 1
+            for _ in range(frames.due(played)):
+                self.frame(time.monotonic())
+                if filmed and each_frame is not None:
+                    each_frame(self, alpha)
             if seconds is not None and now - begin >= seconds:
                 break
             self.stop.wait(IDLE_SECONDS)
@@ -205,8 +207,8 @@ class Client:
 
         wrong = self.reconciler.wrong_since is not None
         state = HashState(self.confirmed.state_hash, self.confirmed.tick, "different" if wrong else "equal")
-        moment = interpolate(self.prediction.previous, self.prediction.world, alpha, state, nodes=nodes)
-        return replace(moment, position=self.correction.drawn(moment.id, moment.position))
+        moment = interpolate(*self.prediction.shown, alpha, state, nodes=nodes)
+        return replace(moment, position=self.screen.seen(moment.id, moment.position))
 
     def close(self, timeout: float = 5.0) -> bool:
         """Leave. False if Zenoh did not finish within `timeout` seconds."""
@@ -223,8 +225,10 @@ class Client:
 
     def _enter(self, joined: Joined) -> None:
         """Begin in a world that was just joined, for the first time or after a restart of the server."""
-        now = time.monotonic()
         about = joined.about
+        self.step_seconds = step_seconds(joined.world)
+        judge_pace(self.step_seconds, rate=about.rate, balls=joined.world.count)
+        now = time.monotonic()
         self.joined = joined
         self.follower = Follower(joined.world)
         self.reconciler = Reconciler(
@@ -240,8 +244,7 @@ class Client:
             in_order="udp" not in self.link.kinds,
         )
         self._pinging = Pinging(self.link, self._keys, epoch=joined.epoch, now=now)
-        self.correction.clear()
-        self.feel.entered()
+        self.screen.entered()
         self.healing = Healing(
             self.link, self._keys, epoch=joined.epoch, follower=self.follower, reconciler=self.reconciler
         )
@@ -293,7 +296,7 @@ class Client:
 
     def _heard(self, message: Tick, now: float) -> None:
         self._heard_at, self._stalled = now, False
-        self.feel.heard(now)
+        self.screen.feel.heard(now)
         self.clock.heard(message.end, now)
         if self.outbox is not None:
             self._answered(message.outcomes(self.outbox.number), self.outbox)
@@ -323,26 +326,34 @@ class Client:
             if time.monotonic() - now > CONFIRM_SECONDS:
                 done = False
                 break
-        self._reconcile()
         if self.follower.behind == 0:
-            self.feel.caught_up(time.monotonic())
+            self.screen.feel.caught_up(time.monotonic())
         self._note_lag()
         return done
 
-    def _reconcile(self) -> None:
-        prediction = self.prediction
-        before = prediction.drawn(self._alpha) if prediction.wrong else None
-        if prediction.reconcile(self.confirmed) and before is not None:
-            after = prediction.drawn(self._alpha)
-            self.correction.moved(*before, *after, prediction.world.radius)
+    def _predict(self, tick: int, now: float, *, step: bool) -> None:
+        """Run forward again what was wrong, then on to `tick` if there is time to `step`.
 
-    def _predict(self, tick: int) -> None:
+        What is too much for this turn waits for the next.
+        """
         prediction = self.prediction
-        until = min(tick, self.confirmed.tick + prediction.limit)
-        while prediction.world.tick < tick and prediction.may_step(self.confirmed):
-            if prediction.world.tick == until - 1:
-                self._let_bot_act()
+        until = time.monotonic() + PREDICT_SECONDS
+
+        def in_time() -> bool:
+            return time.monotonic() < until
+
+        prediction.reconcile(self.confirmed, in_time)
+        self._switch(now)
+        if tick > prediction.shown[1].tick:
+            self._let_bot_act(now)
+        while step and prediction.world.tick < tick and in_time() and prediction.may_step(self.confirmed):
             prediction.step()
+            self._switch(now)
+
+    def _switch(self, now: float) -> None:
+        before = self.prediction.switched(self.confirmed)
+        if before is not None:
+            self.screen.switched(before, self.prediction, now=now, rate=self.joined.about.rate)
 
     def _note_lag(self) -> None:
         behind = self.follower.behind
@@ -353,12 +364,18 @@ class Client:
             self._lagging = False
             log.info("caught up with the stream")
 
-    def _let_bot_act(self) -> None:
-        world = self.prediction.world
-        if self.settings.bot is None or self.outbox is None or world.tick < self._bot_at or self.outbox.full:
+    def _acting_tick(self, now: float) -> int:
+        """The next that is predicted; who is behind with predicting leaves out those that are over at the server."""
+        return max(self.prediction.shown[1].tick, math.floor(self.clock.target(now)) - 1)
+
+    def _let_bot_act(self, now: float) -> None:
+        if self.settings.bot is None or self.outbox is None or self.outbox.full:
             return
-        self._bot_at = world.tick + max(1, round(BOT_SECONDS * self.joined.about.rate))
-        given = BOTS[self.settings.bot](Sight(world, self.own))
+        tick = self._acting_tick(now)
+        if tick < self._bot_at:
+            return
+        self._bot_at = tick + max(1, round(BOT_SECONDS * self.joined.about.rate))
+        given = BOTS[self.settings.bot](Sight(self.prediction.shown[1], self.own))
         # Inputs are held until changed: saying the same again would only cost bytes.
         if given is not None and given != self._bot_said:
             self._bot_said = given

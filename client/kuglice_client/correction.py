@@ -28,8 +28,8 @@ class Correction:
     """Offsets from the state to the picture, per ball.
 
     `mean` and `worst` are in radii, over all balls and frames. A ball counts in a frame with the length of
-    its offset, or of the jump if it was put right at once. Raises LimitError for a time or a limit that is
-    not above 0.
+    its offset, or of the jump if it was put right at once. `worst_jump`: of a state, before any gliding.
+    Raises LimitError for a time or a limit that is not above 0.
     """
 
     def __init__(self, *, seconds: float = SECONDS, limit: float = LIMIT_RADII) -> None:
@@ -46,6 +46,7 @@ class Correction:
         self._sum = 0.0
         self._balls = 0
         self.worst = 0.0
+        self.worst_jump = 0.0
         self.snaps = 0
 
     @property
@@ -60,15 +61,19 @@ class Correction:
 
     def moved(self, before_id: Ids, before: Floats, now_id: Ids, now: Floats, radius: Floats) -> None:
         """Balls drawn at `before` (n, 2) would be drawn at `now` (m, 2) from here on. Ids ascend."""
-        _, was, here = np.intersect1d(before_id, now_id, assume_unique=True, return_indices=True)
-        jump = before[was] - now[here]
+        if not np.array_equal(before_id, now_id):
+            _, was, here = np.intersect1d(before_id, now_id, assume_unique=True, return_indices=True)
+            before, now_id, now, radius = before[was], now_id[here], now[here], radius[here]
+        jump = before - now
         changed = (jump != 0.0).any(axis=1)
         if not changed.any():
             return
-        ids = np.union1d(self._id, now_id[here][changed])
+        jump, moved, radii = jump[changed], now_id[changed], radius[changed]
+        self.worst_jump = max(self.worst_jump, float((np.hypot(jump[:, 0], jump[:, 1]) / radii).max()))
+        ids = np.union1d(self._id, moved)
         offset = np.zeros((len(ids), 2))
         offset[np.searchsorted(ids, self._id)] = self._offset
-        offset[np.searchsorted(ids, now_id[here][changed])] += jump[changed]
+        offset[np.searchsorted(ids, moved)] += jump
         _, kept, at = np.intersect1d(ids, now_id, assume_unique=True, return_indices=True)
         self._id, self._offset, self._radius = ids[kept], offset[kept], radius[at]
         lengths = self._lengths()

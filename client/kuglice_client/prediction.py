@@ -2,10 +2,12 @@
 
 Others' inputs are predicted too: what they hold, they go on holding. When the authoritative inputs of a tick
 equal the predicted ones, the states do as well, and nothing is computed again; otherwise the confirmed world
-is copied and run forward.
+is copied and run forward. That may take several turns: until it is done, what was drawn before stays on screen.
 """
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,10 +20,12 @@ from kuglice.errors import StepError
 from kuglice.inputs import Input, pack
 from kuglice.protocol import StretchedTick
 
-__all__ = ["Prediction"]
+__all__ = ["Drawn", "Prediction"]
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.uint64]
+Drawn = tuple[World, World]
+"""Two states in a row; a frame is between them."""
 
 
 class Prediction:
@@ -34,6 +38,8 @@ class Prediction:
         self.world = confirmed.clone()
         self.previous = confirmed.clone()
         self.limit = limit
+        self._spare: Drawn | None = None
+        self._shown: Drawn | None = None
         self._own: dict[int, list[Input]] = {}
         self._promised: dict[int, list[Input]] = {}
         self._used: dict[int, bytes] = {}
@@ -42,7 +48,6 @@ class Prediction:
         self.rollbacks = 0
         self.deepest_rollback = 0
         self.ticks_rerun = 0
-        self.worst_correction = 0.0
         self.held_back = 0
 
     def act(self, given: Input, tick: int) -> None:
@@ -78,37 +83,59 @@ class Prediction:
         if used != entry.inputs:
             self._wrong = True
 
-    def reconcile(self, confirmed: World) -> bool:
-        """Run forward again from the confirmed world if the prediction was wrong; whether that was so."""
+    def reconcile(self, confirmed: World, in_time: Callable[[], bool] = lambda: True) -> bool:
+        """Run forward again from the confirmed world if the prediction was wrong; whether that was so.
+
+        As far as it is `in_time`, one tick at least; `step` does the rest.
+        """
         wrong, reached = self._wrong, self.world.tick
         self._wrong = False
         self._stuck = self._stuck and reached >= confirmed.tick and not wrong
         if reached < confirmed.tick:
             # Nothing was predicted beyond this: no guess was wrong, the stream is just ahead of us.
-            self.previous.copy_from(self.world if reached == confirmed.tick - 1 else confirmed)
+            last = self._put_aside()
+            self.previous.copy_from(last if reached == confirmed.tick - 1 else confirmed)
             self.world.copy_from(confirmed)
             self._used.clear()
             return False
         if not wrong:
             return False
-        ids, positions = self.world.id, self.world.position
+        self._put_aside()
         self.world.copy_from(confirmed)
+        self.previous.copy_from(confirmed)
         self._used.clear()
-        self._run_to(min(reached, confirmed.tick + self.limit))
+        until = min(reached, confirmed.tick + self.limit)
         self.rollbacks += 1
-        self.deepest_rollback = max(self.deepest_rollback, self.world.tick - confirmed.tick)
-        self.ticks_rerun += self.world.tick - confirmed.tick
-        self.worst_correction = max(self.worst_correction, self._correction(ids, positions))
+        self.deepest_rollback = max(self.deepest_rollback, until - confirmed.tick)
+        while self.world.tick < until and not self._stuck:
+            self.step()
+            if not in_time():
+                break
         return True
 
+    def switched(self, confirmed: World) -> Drawn | None:
+        """What was drawn until now, if it no longer is: the new prediction is as far, or the stream further."""
+        if self._shown is None:
+            return None
+        behind = self.world.tick < self._shown[1].tick
+        if behind and self._shown[1].tick >= confirmed.tick and self._may_go_on(confirmed):
+            return None
+        before = self._spare = self._shown
+        self._shown = None
+        return before
+
     @property
-    def wrong(self) -> bool:
-        """Whether a guess is known to have been wrong, and `reconcile` has work to do."""
-        return self._wrong
+    def shown(self) -> Drawn:
+        """The last two states to be drawn: of the prediction, or of the one before it while that is made again."""
+        return self._shown or (self.previous, self.world)
 
     def drawn(self, alpha: float) -> tuple[Ids, Floats]:
-        """Ids and positions (n, 2), `alpha` of the way from the previous state to the present one."""
-        before, now = self.previous, self.world
+        """Ids and positions (n, 2) to be drawn, `alpha` of the way from the last but one state to the last."""
+        return self.blended(*self.shown, alpha)
+
+    @staticmethod
+    def blended(before: World, now: World, alpha: float) -> tuple[Ids, Floats]:
+        """Ids of `now` and positions (n, 2), `alpha` of the way from one state to the next."""
         return now.id, blend(before.id, before.position, now.id, now.position, alpha)
 
     def distrust(self) -> None:
@@ -117,28 +144,36 @@ class Prediction:
 
     def may_step(self, confirmed: World) -> bool:
         """Whether one more tick may be predicted."""
-        if not self._stuck and self.world.tick - confirmed.tick < self.limit:
+        if self._may_go_on(confirmed):
             return True
         self.held_back += 1
         return False
 
     def step(self) -> None:
         """Predict one more tick."""
-        self._run_to(self.world.tick + 1)
+        now = self.world.tick
+        inputs = pack(sorted(self._own.get(now, []), key=lambda one: one.sequence))
+        self.previous.copy_from(self.world)
+        try:
+            self.world.step(inputs, budget=tick_budget(self.world))
+        except StepError:
+            # The server does not make this tick either; what it gives up so that it can, only it knows.
+            self._stuck = True
+            return
+        self._used[now] = inputs
+        if self._shown is not None and now < self._shown[1].tick:
+            self.ticks_rerun += 1
 
-    def _run_to(self, tick: int) -> None:
-        while self.world.tick < tick:
-            now = self.world.tick
-            inputs = pack(sorted(self._own.get(now, []), key=lambda one: one.sequence))
-            if now == tick - 1:
-                self.previous.copy_from(self.world)
-            try:
-                self.world.step(inputs, budget=tick_budget(self.world))
-            except StepError:
-                # The server does not make this tick either; what it gives up so that it can, only it knows.
-                self._stuck = True
-                return
-            self._used[now] = inputs
+    def _may_go_on(self, confirmed: World) -> bool:
+        return not self._stuck and self.world.tick - confirmed.tick < self.limit
+
+    def _put_aside(self) -> World:
+        """Draw what there is until `switched`, and make the prediction elsewhere; the last state until now."""
+        last = self.world
+        if self._shown is None:
+            spare = self._spare or (last.clone(), last.clone())
+            self._shown, (self.previous, self.world) = (self.previous, last), spare
+        return last
 
     def _forget(self, given: Input, planned: int) -> bool:
         # It may have been moved on from where it was planned, when that tick was confirmed without it.
@@ -148,12 +183,3 @@ class Prediction:
                 waiting.remove(given)
                 return True
         return False
-
-    def _correction(self, ids: np.ndarray, positions: np.ndarray) -> float:
-        """Largest distance, in radii, that a ball moved by running forward again."""
-        _, before, after = np.intersect1d(ids, self.world.id, assume_unique=True, return_indices=True)
-        if not len(before):
-            return 0.0
-        moved = self.world.position[after] - positions[before]
-        radii = self.world.radius[after]
-        return float((np.hypot(moved[:, 0], moved[:, 1]) / radii).max())

@@ -29,7 +29,7 @@ def figures(client: Client) -> dict[str, Figure]:
         "rollbacks": prediction.rollbacks,
         "deepest_rollback": prediction.deepest_rollback,
         "ticks_rerun": prediction.ticks_rerun,
-        "worst_correction_radii": prediction.worst_correction,
+        "worst_correction_radii": client.screen.correction.worst_jump,
         "messages_missed": follower.missed_messages,
         "ticks_healed_by_repeats": follower.healed_by_repeats,
         "ticks_healed_by_history": follower.healed_by_history,
@@ -62,6 +62,7 @@ def summarise(client: Client, *, seconds: float) -> dict[str, Any]:
         "rejoins": client.totals.rejoins,
         "lead_ticks": client.clock.lead,
         "ticks_behind": client.follower.behind,
+        "step_milliseconds": 1000 * client.step_seconds,
         "bytes_per_second_received": rates["received"],
         "bytes_per_second_ticks": rates.get("ticks", 0.0),
         "bytes_per_second_snapshots": rates.get("snapshots", 0.0),
@@ -73,7 +74,7 @@ def summarise(client: Client, *, seconds: float) -> dict[str, Any]:
 
 
 def _feel(client: Client, summed: dict[str, Figure], seconds: float) -> dict[str, Any]:
-    feel, correction, clock = client.feel, client.correction, client.clock
+    feel, correction, clock = client.screen.feel, client.screen.correction, client.clock
     accepted, rollbacks = summed["inputs_accepted"], summed["rollbacks"]
     return {
         "inputs": feel.inputs,

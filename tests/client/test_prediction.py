@@ -17,9 +17,12 @@ def push(sequence: int, x: float = 20.0, client: int = ME) -> Thrust:
 
 
 def confirm(prediction, confirmed, entry) -> bool:
+    """Whether it was predicted again."""
     confirmed.step(entry.inputs)
     prediction.confirm(entry)
-    return prediction.reconcile(confirmed)
+    again = prediction.reconcile(confirmed)
+    prediction.switched(confirmed)
+    return again
 
 
 def test_an_own_input_acts_in_the_very_next_predicted_tick(authority):
@@ -51,7 +54,6 @@ def test_anothers_input_rolls_back_and_runs_forward(authority):
         prediction.step()
     assert confirm(prediction, confirmed, authority.step([push(1, client=OTHER)]))
     assert (prediction.rollbacks, prediction.deepest_rollback, prediction.ticks_rerun) == (1, 3, 3)
-    assert prediction.worst_correction > 0
     for _ in range(3):
         # What the other holds goes on: from here on the guess is right.
         assert not confirm(prediction, confirmed, authority.step())
@@ -124,6 +126,47 @@ def test_a_stream_that_overtakes_leads(authority):
         confirm(prediction, confirmed, authority.step([push(number, client=OTHER)]))
         assert prediction.world.snapshot() == authority.world.snapshot()
     assert prediction.rollbacks == 0
+
+
+def test_running_forward_again_may_take_several_turns_and_until_then_what_was_drawn_stays(authority):
+    confirmed = authority.world.clone()
+    prediction = Prediction(confirmed, limit=30)
+    for _ in range(8):
+        prediction.step()
+    ids, drawn = prediction.drawn(0.3)
+    confirmed.step((entry := authority.step([push(1, client=OTHER)])).inputs)
+    prediction.confirm(entry)
+    assert prediction.reconcile(confirmed, lambda: False)
+    turns = 1
+    while prediction.switched(confirmed) is None:
+        assert prediction.drawn(0.3)[1].tolist() == drawn.tolist()
+        assert (prediction.shown[1].tick, prediction.world.tick) == (
+            confirmed.tick + 7,
+            confirmed.tick + turns,
+        )
+        prediction.step()
+        turns += 1
+    assert (turns, prediction.rollbacks, prediction.ticks_rerun) == (7, 1, 7)
+    assert prediction.drawn(0.3)[0].tolist() == ids.tolist()
+    assert prediction.drawn(0.3)[1].tolist() != drawn.tolist()
+    assert prediction.previous.tick == prediction.world.tick - 1
+    for _ in range(7):
+        assert not confirm(prediction, confirmed, authority.step())
+    assert prediction.world.snapshot() == authority.world.snapshot()
+
+
+def test_who_never_has_time_to_run_forward_again_still_draws_nothing_older_than_the_stream(authority):
+    confirmed = authority.world.clone()
+    prediction = Prediction(confirmed, limit=30)
+    for _ in range(8):
+        prediction.step()
+    for number in range(40):
+        entry = authority.step([push(number, client=OTHER, x=float(number))])
+        confirmed.step(entry.inputs)
+        prediction.confirm(entry)
+        prediction.reconcile(confirmed, lambda: False)
+        prediction.switched(confirmed)
+        assert prediction.shown[1].tick >= confirmed.tick
 
 
 def test_no_more_is_predicted_than_may_be(authority):

@@ -1,0 +1,79 @@
+"""What a person at the screen sees: when frames are drawn, and how the picture goes from one prediction to another."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kuglice_client.correction import Correction
+from kuglice_client.feel import Feel
+from kuglice_client.prediction import Drawn, Prediction
+
+__all__ = ["FRAME_RATE", "Frames", "Screen"]
+
+Floats = NDArray[np.float64]
+Ids = NDArray[np.uint64]
+
+FRAME_RATE = 60.0
+"""Of a screen that nobody looks at: what is seen is counted per frame, so there must be some."""
+
+
+class Frames:
+    """When frames are due. A screen leaves out those that it has no time for, a film has all of them."""
+
+    def __init__(self, rate: float, *, all_of_them: bool) -> None:
+        self._rate = rate
+        self._all = all_of_them
+        self._drawn = 0
+
+    def due(self, played: float) -> int:
+        """How many are to be drawn after that many seconds of play."""
+        # The first one is due once time has passed at all.
+        until = math.ceil(played * self._rate)
+        due, self._drawn = max(0, until - self._drawn), max(until, self._drawn)
+        return due if self._all else min(1, due)
+
+
+class Screen:
+    """Counts what is seen, `correction` and `feel`, and moves nothing but the picture."""
+
+    def __init__(self) -> None:
+        self.correction = Correction()
+        self.feel = Feel()
+        self.alpha = 0.0
+        self._frame_at: float | None = None
+
+    def entered(self) -> None:
+        """Another run of the server: nothing of the last one is seen any more."""
+        self.correction.clear()
+        self.feel.entered()
+        self._frame_at = None
+
+    def frame(self, now: float, prediction: Prediction) -> None:
+        """A frame is drawn, `now` in seconds."""
+        world = prediction.shown[1]
+        self.correction.frame(now, world.count)
+        self.feel.shown(world.tick, now)
+        self._frame_at = now
+
+    def switched(self, before: Drawn, prediction: Prediction, *, now: float, rate: float) -> None:
+        """From now on the prediction is drawn instead of `before`: that jump is glided over, and counted.
+
+        If it is ahead, what the balls do in the ticks that have passed since the last frame, of `rate` per second,
+        is motion and no jump; more than that would not have been seen.
+        """
+        if self._frame_at is None:
+            return
+        previous, world = before
+        ids, position = prediction.blended(previous, world, self.alpha)
+        after = prediction.world
+        ahead = min(after.tick - world.tick, (now - self._frame_at) * rate)
+        if ahead > 0:
+            position = position + world.velocity * (ahead / world.scene.tick_rate)
+        self.correction.moved(ids, position, *prediction.drawn(self.alpha), prediction.shown[1].radius)
+
+    def seen(self, ids: Ids, position: Floats) -> Floats:
+        """`position` (n, 2) of the balls `ids`, which ascend, where they are drawn."""
+        return self.correction.drawn(ids, position)

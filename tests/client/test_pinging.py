@@ -1,0 +1,91 @@
+"""How long the way takes is asked of a real queryable, over a session of this process, and now and then only."""
+
+from __future__ import annotations
+
+import threading
+import time
+
+import pytest
+import zenoh
+
+from kuglice.processes import free_port
+from kuglice.protocol import (
+    Keys,
+    Refusal,
+    TickRange,
+    decode,
+    encode,
+    open_session,
+    server_configuration,
+)
+from kuglice_client.link import Link
+from kuglice_client.pinging import EVERY_SECONDS, Pinging
+
+EPOCH = 7
+KEYS = Keys("asked")
+DEADLINE_SECONDS = 20.0
+
+
+class Asked:
+    """A server that knows one answer, counts questions and holds them back until released."""
+
+    def __init__(self, endpoint: str, *, refuse: bool) -> None:
+        self.session = open_session(server_configuration(listen=[endpoint], connect=[]))
+        self.questions: list[TickRange] = []
+        self.release = threading.Event()
+        self._refuse = refuse
+        self._queryable = self.session.declare_queryable(KEYS.history, self._answer)
+
+    def _answer(self, query: zenoh.Query) -> None:
+        self.questions.append(decode(query.payload.to_bytes(), TickRange))
+        with query:
+            self.release.wait(DEADLINE_SECONDS)
+            if self._refuse:
+                query.reply_err(encode(Refusal(epoch=EPOCH, reason="not kept any more")))
+            else:
+                query.reply(KEYS.history, b"anything")
+
+
+@pytest.fixture(params=[False, True], ids=["answered", "refused"])
+def asked(request):
+    endpoint = f"tcp/127.0.0.1:{free_port()}"
+    server = Asked(endpoint, refuse=request.param)
+    link = Link((endpoint,), deadline=time.monotonic() + DEADLINE_SECONDS, stop=threading.Event())
+    yield server, link
+    server.release.set()
+    link.close(5.0)
+    server.session.close()
+
+
+def test_a_yes_takes_as_long_as_a_no_and_only_one_question_is_under_way(asked):
+    server, link = asked
+    pinging = Pinging(link, KEYS, epoch=EPOCH, now=100.0)
+    assert pinging.turn(100.0 + 0.9 * EVERY_SECONDS, 5) is None
+    assert pinging.turn(100.0 + EVERY_SECONDS, -1) is None, "there is no tick to ask about yet"
+    began = 100.0 + EVERY_SECONDS
+    assert pinging.turn(began, 5) is None
+    until = time.monotonic() + DEADLINE_SECONDS
+    while not server.questions and time.monotonic() < until:
+        assert pinging.turn(began + 0.5, 6) is None
+        time.sleep(0.002)
+    server.release.set()
+    trip = None
+    while trip is None and time.monotonic() < until:
+        trip = pinging.turn(began + 0.75, 7)
+        time.sleep(0.002)
+    assert trip == pytest.approx(0.75)
+    assert server.questions == [TickRange(epoch=EPOCH, first=5, end=6)]
+    assert pinging.turn(began + 0.9 * EVERY_SECONDS, 8) is None
+
+
+def test_silence_measures_nothing_and_the_next_question_comes_in_its_time(asked):
+    server, link = asked
+    server._queryable.undeclare()
+    pinging = Pinging(link, KEYS, epoch=EPOCH, now=0.0)
+    # Asked and given up, again and again: never does it say how long that took.
+    until = time.monotonic() + 1.0
+    now = 0.0
+    while time.monotonic() < until:
+        now += EVERY_SECONDS
+        assert pinging.turn(now, 5) is None
+        time.sleep(0.002)
