@@ -38,6 +38,14 @@ $(NUMBA): $(SETUP)
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint .ci/python-constraints.txt numba || true
 	@touch $@
 
+## make instructions  count those of fixed runs and compare with .ci/instructions.csv (RENEW=1: write it anew)
+instructions:
+	@$(PYTHON) .ci/instructions.py $(if $(RENEW),--renew)
+
+## make memcheck  the unsafe code under valgrind
+memcheck: $(SETUP)
+	@bash .ci/memcheck
+
 ## make chart   all figures of the lab in out/chart, and the table that the planner reads
 chart: $(SETUP)
 	@$(BIN)/kuglice chart --plan-table shared/kuglice/plan/measured.csv
@@ -62,4 +70,4 @@ clean:
 	rm -rf .venv out build dist shared/core/target shared/kuglice/_core*.so shared/*.egg-info *.egg-info
 	find . -name __pycache__ -prune -exec rm -rf {} + ; rm -rf .mypy_cache .ruff_cache .pytest_cache .hypothesis
 
-.PHONY: help setup demo test lint bench chart rapier core golden clean
+.PHONY: help setup demo test lint bench instructions memcheck chart rapier core golden clean

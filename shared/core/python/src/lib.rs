@@ -1,6 +1,11 @@
 //! kuglice._core: the step and the rasteriser for Python. Conversion only, no logic.
+#![deny(unsafe_code)]
 
 mod errors;
+#[expect(
+    unsafe_code,
+    reason = "numpy arrays over a world's own memory; see its SAFETY lines and .ci/memcheck"
+)]
 mod lease;
 mod model;
 mod raster;

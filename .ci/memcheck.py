@@ -1,0 +1,86 @@
+"""What .ci/memcheck runs under valgrind: every use of memory that a world lends, in the orders that could go wrong."""
+
+import gc
+
+import numpy as np
+
+from kuglice import _core
+
+COUNT = 50
+
+
+def world() -> _core.World:
+    """Some balls in a box, whose memory is large enough to come and go as blocks of its own."""
+    rules = _core.Rules(box=(0.0, 0.0, 60.0, 10.0), walls=True, restitution=1.0, tick_rate=60.0, forces=[])
+    model = _core.Model(integrator="verlet", contacts="overlap", broadphase="loose_quadtree")
+    place = np.arange(COUNT, dtype=float)
+    return _core.World(
+        rules,
+        model,
+        position=np.stack([1.0 + place, np.full(COUNT, 5.0)], axis=1),
+        velocity=np.ones((COUNT, 2)),
+        radius=np.full(COUNT, 0.4),
+        mass=np.ones(COUNT),
+    )
+
+
+def total(lease: _core.Lease) -> float:
+    """Reads every byte that is lent."""
+    arrays = (lease.position, lease.velocity, lease.radius, lease.mass, lease.id)
+    return float(sum(array.sum() for array in arrays))
+
+
+def main() -> None:
+    """Raises what is wrong; valgrind names what nobody can raise."""
+    one = world()
+    lease = one.lend()
+    before = total(lease)
+
+    # A lent world refuses to change, and its arrays stay what they were.
+    for change in (lambda: one.step(b""), lambda: one.run(1), lambda: one.copy_from(world())):
+        try:
+            change()
+        except Exception as error:
+            assert type(error).__name__ == "LentError", error
+        else:
+            raise AssertionError("a lent world has changed")
+    assert total(lease) == before
+
+    # An array, and what is cut from it, outlive their lease and the last name of their world.
+    position, row = lease.position, lease.position[7]
+    lease.end()
+    del lease, one
+    gc.collect()
+    scraps = [world() for _ in range(3)]
+    assert position[7, 0] == row[0] == 8.0
+    del position, row, scraps
+    gc.collect()
+
+    # What was given back is free to move: more balls than before fit no longer where they were.
+    two = world()
+    with_lease = two.lend()
+    total(with_lease)
+    with_lease.end()
+    two.run(3)
+    again = two.lend()
+    assert np.isfinite(total(again))
+    again.end()
+
+    # Nothing to lend is lent as well.
+    nobody = _core.World(
+        _core.Rules(box=(0.0, 0.0, 1.0, 1.0), walls=True, restitution=1.0, tick_rate=60.0, forces=[]),
+        _core.Model(integrator="verlet", contacts="overlap", broadphase="brute"),
+        position=np.empty((0, 2)),
+        velocity=np.empty((0, 2)),
+        radius=np.empty(0),
+        mass=np.empty(0),
+    )
+    empty = nobody.lend()
+    assert len(empty.id) == 0
+    del nobody
+    gc.collect()
+    assert total(empty) == 0.0
+
+
+if __name__ == "__main__":
+    main()
