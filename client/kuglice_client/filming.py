@@ -40,7 +40,8 @@ STEPS_ASIDE = 10
 class FilmSettings:
     """How it looks and where it goes. Raises PictureError for what can neither be drawn nor written.
 
-    `still_every`: frames from one PNG beside the film to the next, 0 for none.
+    `still_every`: frames from one PNG beside the film to the next, 0 for none. `reference`: the speed that gets
+    the last colour (None: taken from the scene).
     """
 
     path: Path
@@ -51,6 +52,7 @@ class FilmSettings:
     trails: float = 0.0
     still_every: int = 0
     own: int | None = None
+    reference: float | None = None
 
     def __post_init__(self) -> None:
         if self.path.suffix.lower() not in OUTPUTS:
@@ -60,15 +62,20 @@ class FilmSettings:
 
 
 class Film:
-    """Takes moments without ever waiting. Raises PictureError at once for what cannot be drawn as asked."""
+    """Takes moments without ever waiting. Raises PictureError at once for what cannot be drawn as asked.
 
-    def __init__(self, scene: Scene, settings: FilmSettings) -> None:
+    `balls`: how many a moment has about (None: as many as the scene).
+    """
+
+    def __init__(self, scene: Scene, settings: FilmSettings, *, balls: int | None = None) -> None:
         _renderer(scene, settings)
         self.settings = settings
         self.taken = 0
         self.left_out = 0
         context = multiprocessing.get_context("spawn")
-        most = max(64, WAITING_BYTES // (BYTES_PER_BALL * max(1, len(scene.balls))))
+        most = max(
+            64, WAITING_BYTES // (BYTES_PER_BALL * max(1, len(scene.balls) if balls is None else balls))
+        )
         self._moments: Moments = context.Queue(most)
         self._result, result = context.Pipe(duplex=False)
         self._process = context.Process(
@@ -137,6 +144,7 @@ def _renderer(scene: Scene, settings: FilmSettings) -> Renderer:
         overlays=settings.overlays,
         trails=settings.trails,
         own=settings.own,
+        reference=settings.reference,
     )
 
 

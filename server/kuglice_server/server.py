@@ -15,6 +15,7 @@ import zenoh
 
 from kuglice import Balls, Scene, World, __version__, _core
 from kuglice.errors import ProtocolError
+from kuglice.picture import reference_speed
 from kuglice.protocol import (
     DEFAULT_ENDPOINT,
     About,
@@ -122,6 +123,7 @@ class Server:
         publisher = Publisher(self._session, keys, epoch=self.epoch, rate=self.rate, counters=self.counters)
         region_every = max(1, round(self.rate / settings.region_rate))
         self._terms = choose_terms(self.world, rate=self.rate / region_every)
+        self._reference_speed = reference_speed(scene)
         self._view_scene_message = {**self._scene_message, "balls": Balls.none().to_message()}
         self._regions = RegionPublisher(
             self._session,
@@ -229,6 +231,7 @@ class Server:
             rate=self.rate,
             tick=self._now,
             balls=self._balls,
+            reference_speed=self._reference_speed,
             regions=self._terms,
         )
 

@@ -49,8 +49,8 @@ def test_help_lists_the_commands_and_each_has_its_own():
 def test_help_lists_first_what_comes_first_and_cuts_no_sentence():
     _, listed = kuglice("--help").stdout.split("Commands:\n")
     named = [line.split()[0] for line in listed.splitlines()]
-    assert named[:7] == ["demo", "scenes", "plan", "render", "server", "client", "router"]
-    assert named[7:11] == ["replay", "chart", "bench", "proxy"]
+    assert named[:8] == ["demo", "scenes", "plan", "render", "server", "client", "view", "router"]
+    assert named[8:12] == ["replay", "chart", "bench", "proxy"]
     for line in listed.splitlines():
         assert line.endswith("."), line
         assert not line.endswith(".."), line

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from kuglice_client.cli import client, render
+from kuglice_client.cli import client, render, view
 
 __all__ = ["register"]
 
@@ -13,3 +13,4 @@ def register(app: typer.Typer) -> None:
     """Add them."""
     client.register(app)
     render.register(app)
+    view.register(app)

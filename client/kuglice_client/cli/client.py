@@ -17,10 +17,10 @@ from rich.status import Status
 from kuglice.cli.figures import print_figures
 from kuglice.cli.logs import STDERR, log_to_stderr
 from kuglice.cli.stop import stop_on_signals
-from kuglice.errors import KugliceError
 from kuglice.extras import require
 from kuglice.protocol import DEFAULT_ENDPOINT
 from kuglice_client.bots import BOTS
+from kuglice_client.cli.finishing import finished
 from kuglice_client.client import Client, ClientSettings
 
 if TYPE_CHECKING:
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 
 __all__ = ["register"]
 
-FINISH_SECONDS = 600.0
 OF_PLAYERS = frozenset({"name", "number", "inputs_accepted", "inputs_refused", "inputs_late"})
 """Figures that a spectator has none of: programs get them empty, people not at all."""
 
@@ -125,7 +124,7 @@ def client(
         # Whatever happened: the server is told at once, and what was played becomes a film.
         playing.close()
         if film is not None:
-            summary |= _finished(film)
+            summary |= finished(film)
     if summary_json is not None:
         summary_json.parent.mkdir(parents=True, exist_ok=True)
         summary_json.write_text(json.dumps(summary, indent=2) + "\n")
@@ -200,15 +199,3 @@ def _shower(film: Film | None, look: _Look, line: Status) -> Callable[[Client, f
             )
 
     return show
-
-
-def _finished(film: Film) -> dict[str, Any]:
-    figures: dict[str, Any] = {"film": str(film.settings.path), "frames_left_out": film.left_out}
-    try:
-        with STDERR.status(f"finishing the film, {film.waiting} frames to draw"):
-            figures["frames"] = film.close(FINISH_SECONDS)
-    except KugliceError as error:
-        # The figures of the play are worth keeping without a film too.
-        STDERR.print(str(error), style="red", highlight=False, markup=False)
-        figures["film_error"] = str(error)
-    return figures

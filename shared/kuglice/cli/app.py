@@ -25,6 +25,7 @@ ORDER = (
     "render",
     "server",
     "client",
+    "view",
     "router",
     "replay",
     "chart",

@@ -50,7 +50,7 @@ class RegionTerms(BaseModel):
 class ViewAbout(Message):
     """As About, but of a size that does not grow with the balls: `scene` has none, `balls` says how many play.
 
-    `rate` is in ticks per second of wall clock.
+    `rate` is in ticks per second of wall clock; `reference_speed` is the scene's, so that pictures agree.
     """
 
     kind: ClassVar[str] = "view about"
@@ -64,4 +64,5 @@ class ViewAbout(Message):
     rate: Annotated[float, Field(gt=0, le=10_000)]
     tick: TickNumber
     balls: Annotated[int, Field(ge=0)]
+    reference_speed: Positive
     regions: RegionTerms

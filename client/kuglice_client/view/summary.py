@@ -1,0 +1,57 @@
+"""What a view's session was like, in figures."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from kuglice_client.view.view import View
+
+__all__ = ["summarise"]
+
+
+def summarise(view: View, *, seconds: float) -> dict[str, Any]:
+    """Values for JSON. Errors are distances between told and predicted places of balls in sight, in radii."""
+    known, accuracy, interest = view.known, view.accuracy, view.interest
+    rates = view.link.traffic.per_second(seconds)
+    paces = Counter(interest.paces.values())
+    radius = known.world.radius
+    smallest = float(np.min(radius)) if len(radius) else None
+    bound = view.about.regions.position_quantum / 2
+    return {
+        "world": view.about.world,
+        "epoch": view.about.epoch,
+        "links": "+".join(view.link.kinds),
+        "seconds": seconds,
+        "joined_after_seconds": view.joined_after,
+        "final_tick": known.world.tick,
+        "rectangle": list(view.rectangle),
+        "balls_of_the_world": view.about.balls,
+        "balls_in_sight": int(view.in_sight.sum()),
+        "balls_followed": known.world.count,
+        "regions_followed": len(interest.paces),
+        "regions_by_pace": {f"1/{1 << pace}": paces[pace] for pace in sorted(paces)},
+        "regions_left_out": interest.left_out,
+        "updates": view.updates,
+        "updates_too_old": known.too_old,
+        "rewinds": known.rewinds,
+        "ticks_rerun": known.ticks_rerun,
+        "jumps": known.jumps,
+        "unusable_ticks": known.unusable,
+        "malformed_messages": view.malformed,
+        "rejoins": view.rejoins,
+        "bytes_per_second_received": rates["received"],
+        "bytes_per_second_budget": view.settings.budget,
+        "bytes_joining": view.link.traffic.received["joining"],
+        "told_within_radii": None if smallest is None else bound / smallest,
+        "prediction_error_radii": {
+            "compared": accuracy.compared,
+            "mean": accuracy.mean,
+            "p99": accuracy.quantile(0.99),
+            "worst": accuracy.worst,
+        },
+        "correction_radii": {"mean": view.correction.mean, "worst": view.correction.worst},
+    }

@@ -1,0 +1,89 @@
+"""Which regions a view wants: what covers it, within its budget, the far ones less often first."""
+
+from __future__ import annotations
+
+import itertools
+
+import pytest
+
+from kuglice.errors import ProtocolError
+from kuglice.protocol import PACES, Nodes
+from kuglice_client.view import ViewSettings, parse_rectangle
+from kuglice_client.view.interest import Interest
+
+NODES = Nodes((0.0, 0.0, 80.0, 80.0), 3)
+VIEW = (32.0, 32.0, 48.0, 48.0)
+
+
+def interest(budget: float | None = None) -> Interest:
+    made = Interest(NODES, rate=10.0, balls=64 * 10, budget=budget)
+    made.choose(VIEW, 10.0)
+    return made
+
+
+def chebyshev(node: int) -> float:
+    left, bottom, right, top = NODES.rectangle(node)
+    return max(abs((left + right) / 2 - 40), abs((bottom + top) / 2 - 40))
+
+
+def test_without_a_budget_everything_that_covers_view_and_margin_comes_at_full_pace():
+    made = interest()
+    assert made.paces == dict.fromkeys(NODES.cover((22.0, 22.0, 58.0, 58.0)), 0)
+    assert len(made.paces) == 16
+    assert not made.out_of_balance
+
+
+@pytest.mark.parametrize("budget", [100.0, 1000.0, 3000.0, 7000.0, 12_000.0, 1e6])
+def test_a_budget_is_kept_by_slowing_the_far_regions_first(budget):
+    made = interest(budget)
+    assert made.bytes_per_second <= budget
+    pace = {node: made.paces.get(node, PACES) for node in NODES.cover((22, 22, 58, 58))}
+    for near, far in itertools.product(pace, pace):
+        assert pace[near] <= pace[far] or chebyshev(near) >= chebyshev(far)
+    assert made.left_out == list(pace.values()).count(PACES)
+
+
+def test_what_is_heard_of_sizes_is_taken_into_account():
+    made = interest(16_000.0)
+    before = made.bytes_per_second
+    for node in made.paces:
+        for _ in range(50):
+            made.note(node, 300)
+    assert made.bytes_per_second > 2 * before
+    assert made.out_of_balance
+    assert made.choose(VIEW, 10.0)
+    assert made.bytes_per_second <= 16_000
+    assert not made.out_of_balance
+    assert any(made.paces.values())
+
+
+def test_bytes_that_became_free_are_used_again():
+    made = interest(8000.0)
+    assert any(made.paces.values())
+    for node in NODES.cover((22, 22, 58, 58)):
+        for _ in range(50):
+            made.note(node, 20)
+    assert made.out_of_balance
+    made.choose(VIEW, 10.0)
+    assert not any(made.paces.values())
+
+
+def test_it_changes_as_the_view_moves():
+    made = interest()
+    assert not made.choose(VIEW, 10.0)
+    assert not made.choose((33.0, 33.0, 47.0, 47.0), 10.0)
+    assert made.choose((72.0, 72.0, 90.0, 90.0), 0.0)
+    assert made.paces == {63: 0}
+
+
+def test_a_rectangle_is_given_by_its_corner_and_its_size():
+    assert parse_rectangle("1,2,3,4.5") == (1.0, 2.0, 4.0, 6.5)
+    for wrong in ("", "1,2,3", "1,2,3,x", "0,0,0,1", "0,0,1,-1", "nan,0,1,1", "0,0,inf,1"):
+        with pytest.raises(ProtocolError, match="view"):
+            parse_rectangle(wrong)
+
+
+@pytest.mark.parametrize("wrong", [{"margin": -1.0}, {"margin": float("nan")}, {"budget": 0.0}])
+def test_settings_that_cannot_be_are_refused(wrong):
+    with pytest.raises(ProtocolError):
+        ViewSettings(VIEW, **wrong)

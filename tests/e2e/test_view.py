@@ -1,0 +1,203 @@
+"""Views of real servers: the balls of a rectangle, as exactly as was told; moved, restarted, attacked, on a budget."""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+import zenoh
+
+import kuglice as kg
+from e2e.processes import Command, until
+from e2e.raw_client import RawClient
+from kuglice.protocol import Keys, Region, encode
+from kuglice_client.view import View, ViewSettings
+
+WORLD = "crowd"
+VIEW = (10.0, 10.0, 22.0, 18.0)
+
+
+@pytest.fixture
+def scene(tmp_path):
+    path = tmp_path / f"{WORLD}.toml"
+    kg.scenes.gas(n=1500).save(path)
+    return path
+
+
+@pytest.fixture
+def look(endpoint) -> Callable[..., View]:
+    opened: list[View] = []
+
+    def make(rectangle=VIEW, **given) -> View:
+        opened.append(View(ViewSettings(rectangle, connect=(endpoint,), wait=30.0, **given)))
+        return opened[-1]
+
+    yield make
+    for view in opened:
+        view.close()
+
+
+def whole_tick(view: View, after: int = 0) -> int:
+    """A tick later than `after` of which all that is followed was told, waited for."""
+
+    def complete() -> int | None:
+        view.turn(time.monotonic())
+        followed = set(view.interest.paces)
+        newest = view.known.world.tick // 6 * 6
+        return next((t for t in range(newest, after, -6) if view.known.told_of(t) >= followed), None)
+
+    return until(complete, what="news of all regions")
+
+
+def assert_is_a_part(view: View, tick: int, record) -> None:
+    """The view's world of that tick is the part of the recorded one that it follows, within what was promised."""
+    state = view.known.at(tick)
+    truth = next(world for world in kg.replay.Replay.load(record).worlds() if world.tick == tick)
+    here = np.isin(view.known._node_of(truth.position), list(view.interest.paces))
+    assert state.id.tolist() == truth.id[here].tolist()
+    terms = view.about.regions
+    assert np.abs(state.position - truth.position[here]).max(initial=0) <= terms.position_quantum / 2
+    assert np.abs(state.velocity - truth.velocity[here]).max(initial=0) <= terms.velocity_quantum / 2
+    left, bottom, right, top = view.rectangle
+    x, y = truth.position.T
+    inside = truth.id[(x >= left) & (x < right) & (y >= bottom) & (y < top)]
+    assert set(inside.tolist()) <= set(state.id.tolist())
+
+
+def test_a_view_has_just_the_balls_of_its_regions_and_moves_and_the_rest_is_not_sent(
+    server: Command, endpoint, look, tmp_path
+):
+    with RawClient(endpoint, WORLD, None) as other:
+        view = look()
+        first = whole_tick(view)
+        at_first = (first, view.known.at(first))
+        followed = len(view.interest.paces)
+        assert followed < view.nodes.count == 16
+        before, ticks = other.status(), view.known.world.tick
+        until(lambda: view.turn(time.monotonic()) and view.known.world.tick > ticks + 60, what="a second")
+        after = other.status()
+        rounds = (after.tick - before.tick) / 6
+        told = after.counters["regions out"] - before.counters["regions out"]
+        assert told <= (rounds + 2) * followed, "only what is looked at is told"
+        view.move((30.0, 30.0, 38.0, 36.0))
+        second = whole_tick(view, view.known.world.tick)
+        at_second = (second, view.known.at(second))
+        assert set(at_first[1].id.tolist()) != set(at_second[1].id.tolist())
+        view.close()
+        until(lambda: _silent(other), what="silence when nobody looks")
+    server.signal(2)
+    server.figures()
+    assert_is_a_part(view, second, tmp_path / "run.kuglice")
+    assert view.malformed == 0
+    assert view.accuracy.compared > 100
+    assert view.accuracy.quantile(0.99) < 1.0
+
+
+def _silent(other: RawClient) -> bool:
+    before = other.status().counters["regions out"]
+    time.sleep(0.5)
+    return other.status().counters["regions out"] == before
+
+
+def test_a_server_that_starts_anew_is_looked_at_again(start, scene, endpoint, look, server):
+    view = look()
+    whole_tick(view)
+    epoch = view.about.epoch
+    server.kill()
+    start("server", scene, "--listen", endpoint)
+
+    def anew() -> bool:
+        view.turn(time.monotonic())
+        return view.about.epoch != epoch
+
+    until(anew, what="the new server is found")
+    assert view.rejoins == 1
+    whole_tick(view)
+    assert view.in_sight.sum() > 10
+
+
+def test_a_hostile_region_is_refused_and_the_view_goes_on(endpoint, look, server):
+    view = look()
+    tick = whole_tick(view)
+    node = min(view.interest.paces)
+    key = Keys(WORLD).region(0, view.nodes.path(node))
+    wrong = [
+        b"",
+        b"\xff" * 100,
+        b"\x00" * 2_000_000,
+        encode(Region(epoch=view.about.epoch, tick=2**61, node=node, balls=b"\0")),
+        encode(Region(epoch=view.about.epoch, tick=tick, node=node + 1, balls=b"\0")),
+        encode(Region(epoch=view.about.epoch, tick=tick, node=node, balls=b"\xff" * 1000)),
+    ]
+    with RawClient(endpoint, WORLD, None) as other:
+        for payload in wrong:
+            other.session.put(key, payload, congestion_control=zenoh.CongestionControl.BLOCK)
+
+        def all_refused() -> bool:
+            view.turn(time.monotonic())
+            return view.malformed == len(wrong)
+
+        until(all_refused, what="all are refused")
+    whole_tick(view, tick)
+    assert view.rejoins == 0
+    assert view.known.jumps == 0
+
+
+def test_a_budget_is_kept_by_telling_far_regions_less_often(start, endpoint, server):
+    figures = []
+    for budget in ([], ["--budget", 6000]):
+        view = start("view", "5,5,30,25", "--connect", endpoint, "--seconds", 4, *budget, "--json")
+        figures.append(view.figures())
+    free, bounded = figures
+    assert free["regions_by_pace"] == {"1/1": free["regions_followed"]}
+    assert free["bytes_per_second_received"] > 8000
+    # The first half second goes by a guess.
+    assert bounded["bytes_per_second_received"] < 1.15 * 6000
+    assert (
+        bounded["balls_followed"]
+        > 0.9 * free["balls_followed"] * bounded["regions_followed"] / free["regions_followed"]
+    )
+    assert bounded["regions_left_out"] == 0
+    assert set(bounded["regions_by_pace"]) - {"1/1"}
+
+
+def test_a_moving_view_is_filmed(start, endpoint, server, tmp_path):
+    view = start(
+        "view",
+        "5,5,16,9",
+        "--pan",
+        "6,0",
+        "--connect",
+        endpoint,
+        "--seconds",
+        2,
+        "--render",
+        tmp_path / "frame-%05d.png",
+        "--fps",
+        10,
+        "--width",
+        160,
+        "--json",
+    )
+    figures = view.figures()
+    assert figures["frames"] == 20
+    assert figures["rectangle"][0] == pytest.approx(5 + 6 * 2, abs=1.5)
+    assert figures["rectangle"][2] - figures["rectangle"][0] == pytest.approx(16)
+    assert len(list(tmp_path.glob("frame-*.png"))) == 20
+    assert re.search("looking at world crowd", view.err)
+
+
+def test_without_a_server_a_view_says_so(start, endpoint):
+    view = start("view", "0,0,1,1", "--connect", endpoint, "--wait", 0.5)
+    assert view.wait() == 2
+    assert endpoint in view.err
+
+
+@pytest.mark.parametrize("wrong", ["1,2,3", "0,0,-1,1", "0,0,inf,1"])
+def test_a_rectangle_that_is_none_is_refused(start, wrong):
+    view = start("view", wrong)
+    assert view.wait() == 2
+    assert "view" in view.err
