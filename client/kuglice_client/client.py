@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING, Any, Self
 from kuglice import World
 from kuglice.errors import JoinError, ProtocolError
 from kuglice.inputs import Input, rounded
-from kuglice.protocol import DEFAULT_ENDPOINT, PART_BYTES, Ack, Assembly, Keys, Tick, check_name
+from kuglice.protocol import DEFAULT_ENDPOINT, PART_BYTES, Ack, Assembly, History, Keys, Tick, check_name
 from kuglice_client.bots import BOTS, Sight
 from kuglice_client.clock import Clock
+from kuglice_client.datagram_watch import DatagramWatch
 from kuglice_client.follow import Follower
 from kuglice_client.healing import Healing
 from kuglice_client.join import Joined, find_world, join
@@ -40,6 +41,8 @@ PREDICTED_SECONDS = 1.5
 BOT_SECONDS = 1 / 15
 IDLE_SECONDS = 0.002
 STALL_SECONDS = 2.0
+SILENCE_SECONDS = 0.5
+SILENCE_TICKS = 4
 LAG_SECONDS = 2.0
 CONFIRM_SECONDS = 0.05
 PREDICT_SECONDS = 0.012
@@ -95,6 +98,7 @@ class Client:
         self.totals = Totals()
         self.screen = Screen()
         self.link = Link(settings.connect, deadline=deadline, stop=self.stop)
+        self._datagrams = DatagramWatch(self.link, settings.connect)
         try:
             world = settings.world or find_world(self.link, deadline=deadline, stop=self.stop)
             self._keys = Keys(world)
@@ -150,8 +154,11 @@ class Client:
         Returns how far the drawn state is from one tick to the next.
         """
         self._receive(now)
-        if self.healing.turn(now):
+        self._datagrams.turn(now)
+        if self.healing.turn(now, silent=now - self._heard_at > self._silence):
             self.prediction.distrust()
+        if self.healing.brought is not None:
+            self._brought(self.healing.brought, now)
         round_trip = self._pinging.turn(now, self.confirmed.tick - 1)
         if round_trip is not None:
             self.clock.answered(round_trip)
@@ -261,6 +268,7 @@ class Client:
         )
         self._assembly = Assembly()
         self._heard_at = now
+        self._silence = max(SILENCE_SECONDS, SILENCE_TICKS / about.rate)
         self._stalled = False
         self._lagging = False
         self._bot_at = 0
@@ -301,6 +309,13 @@ class Client:
         if self.outbox is not None:
             self._answered(message.outcomes(self.outbox.number), self.outbox)
         self.follower.take(message)
+
+    def _brought(self, history: History, now: float) -> None:
+        """Ticks from the history stand in for a stream that has stopped."""
+        if self.outbox is not None:
+            self._answered(history.acting(self.outbox.number), self.outbox)
+        if now - self._heard_at > self._silence:
+            self.clock.heard(history.end, now)
 
     def _answered(self, outcomes: Iterable[Ack], outbox: Outbox) -> None:
         for ack in outcomes:

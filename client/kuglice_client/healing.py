@@ -17,6 +17,10 @@ log = logging.getLogger(__name__)
 
 TICKS_AGAIN_SECONDS = 0.05
 SNAPSHOT_AGAIN_SECONDS = 0.5
+TIMEOUT_SECONDS = 5.0
+SILENT_TIMEOUT_SECONDS = 1.0
+TICKS_IN_SILENCE = 600
+"""Asked for at once where the stream brings nothing: an answer has what there is of them."""
 
 
 class Healing:
@@ -33,18 +37,30 @@ class Healing:
         self._asked: Asked | None = None
         self._snapshot_needed = False
         self._not_before = 0.0
+        self._asked_in_silence = False
+        self.brought: History | None = None
+        """What the last turn got from the history."""
         self.gaps_skipped = 0
+        self.silences = 0
 
-    def turn(self, now: float) -> bool:
-        """Hear what was answered, ask what is needed. Whether the confirmed world has something new to do."""
+    def turn(self, now: float, *, silent: bool = False) -> bool:
+        """Hear what was answered, ask what is needed. Whether the confirmed world has something new to do.
+
+        `silent`: nothing has come for so long that the stream may have stopped while the server goes on.
+        """
+        self.brought = None
+        if self._asked is not None and self._asked_in_silence and not silent:
+            # The link is back: what was asked into the void is not waited for.
+            self._asked = None
         if self._asked is not None:
             return self._hear(now)
         if now >= self._not_before:
-            self._ask()
+            self._ask(silent)
         return False
 
-    def _ask(self) -> None:
+    def _ask(self, silent: bool) -> None:
         gap = self._follower.gap
+        self._asked_in_silence = False
         if self._snapshot_needed:
             request: SnapshotRequest | TickRange = SnapshotRequest(epoch=self._epoch, at=None)
         elif self._reconciler.wrong_since is not None:
@@ -52,9 +68,15 @@ class Healing:
             request = SnapshotRequest(epoch=self._epoch, at=self._reconciler.wrong_since)
         elif gap is not None:
             request = TickRange(epoch=self._epoch, first=gap[0], end=gap[1])
+        elif silent:
+            self._asked_in_silence = True
+            self.silences += 1
+            first = self._follower.world.tick
+            request = TickRange(epoch=self._epoch, first=first, end=first + TICKS_IN_SILENCE)
         else:
             return
-        self._asked = self._link.ask(self._keys.history, request)
+        timeout = SILENT_TIMEOUT_SECONDS if self._asked_in_silence else TIMEOUT_SECONDS
+        self._asked = self._link.ask(self._keys.history, request, timeout=timeout)
 
     def _hear(self, now: float) -> bool:
         asked = self._asked
@@ -69,11 +91,14 @@ class Healing:
                 self._not_before = now + SNAPSHOT_AGAIN_SECONDS
                 return self._take(whole)
             self._not_before = now + TICKS_AGAIN_SECONDS
-            self._follower.take(decode(whole.data, History), from_history=True)
+            self.brought = decode(whole.data, History)
+            self._follower.take(self.brought, from_history=True)
         except (JoinError, ProtocolError) as error:
             log.debug("%s", error)
             # Ticks that the server has no more can only be skipped; a server that is away is asked again.
-            self._snapshot_needed = self._snapshot_needed or asked.refused
+            # One who asks in silence is told no where there is nothing new.
+            refused = asked.refused and not self._asked_in_silence
+            self._snapshot_needed = self._snapshot_needed or refused
             self._asked = None
             self._not_before = now + TICKS_AGAIN_SECONDS
             return False

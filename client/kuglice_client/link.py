@@ -96,9 +96,9 @@ class Link:
         """Parts of snapshots that came since the last call."""
         return self._taken(self._snapshots, Part, "snapshots")
 
-    def ask(self, key: str, request: Message | None) -> Asked:
-        """Ask the server; the answer comes later."""
-        return Asked(self.session, key, request, traffic=self.traffic)
+    def ask(self, key: str, request: Message | None, *, timeout: float = 5.0) -> Asked:
+        """Ask the server; the answer comes later, or none after `timeout` seconds."""
+        return Asked(self.session, key, request, traffic=self.traffic, timeout=timeout)
 
     def send(self, message: ClientInputs) -> None:
         """Put inputs on the key that `show` named; what is lost is sent again until acknowledged."""

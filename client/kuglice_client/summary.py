@@ -35,6 +35,7 @@ def figures(client: Client) -> dict[str, Figure]:
         "ticks_healed_by_history": follower.healed_by_history,
         "ticks_unusable": follower.unusable,
         "gaps_skipped": client.healing.gaps_skipped,
+        "silences_asked": client.healing.silences,
     }
 
 

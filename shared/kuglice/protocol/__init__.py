@@ -5,7 +5,7 @@ Server and client both speak through this package and through nothing else.
 
 from kuglice.protocol.codec import decode, encode
 from kuglice.protocol.compact import packed_size
-from kuglice.protocol.endpoints import DEFAULT_ENDPOINT, is_loopback
+from kuglice.protocol.endpoints import DEFAULT_ENDPOINT, is_loopback, wants_datagrams
 from kuglice.protocol.exposure import refuse_exposed
 from kuglice.protocol.keys import ANY_STATUS, Keys, check_name
 from kuglice.protocol.messages import (
@@ -94,4 +94,5 @@ __all__ = [
     "refuse_exposed",
     "server_configuration",
     "split",
+    "wants_datagrams",
 ]

@@ -6,7 +6,7 @@ import ipaddress
 
 from kuglice.errors import ProtocolError
 
-__all__ = ["DEFAULT_ENDPOINT", "is_loopback", "locators"]
+__all__ = ["DEFAULT_ENDPOINT", "is_loopback", "locators", "wants_datagrams"]
 
 DEFAULT_ENDPOINT = "tcp+udp/127.0.0.1:7447"
 BOTH = "tcp+udp"
@@ -22,6 +22,11 @@ def locators(endpoint: str) -> list[str]:
     if protocol != BOTH:
         return [endpoint]
     return [f"tcp/{rest}?rel=1", f"udp/{rest}?rel=0"]
+
+
+def wants_datagrams(endpoint: str) -> bool:
+    """Whether it asks for datagrams beside the stream."""
+    return endpoint.partition("/")[0] == BOTH
 
 
 def is_loopback(endpoint: str) -> bool:

@@ -6,11 +6,15 @@ from abc import abstractmethod
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
+from kuglice import _core
+from kuglice.inputs.record import RECORD
+from kuglice.protocol.messages.ack import Ack
 from kuglice.protocol.messages.envelope import Message, TickNumber
 
 __all__ = ["HASH_BYTES", "Stretch", "StretchedTick"]
 
 HASH_BYTES = 8
+OF_THE_SERVER = tuple(_core.INPUT_KINDS.index(kind) for kind in ("join", "leave"))
 
 
 class StretchedTick(NamedTuple):
@@ -37,6 +41,13 @@ class Stretch(Message):
         hashes = self.state_hashes()
         for offset, (inputs, state_hash) in enumerate(zip(self.inputs, hashes, strict=True)):
             yield StretchedTick(self.first + offset, inputs, state_hash)
+
+    def acting(self, client: int) -> Iterator[Ack]:
+        """Own inputs of that client that act in these ticks: to be in them is to be acknowledged."""
+        for tick, records in enumerate(self.inputs, self.first):
+            for kind, who, sequence, *_ in RECORD.iter_unpack(records):
+                if who == client and kind not in OF_THE_SERVER:
+                    yield Ack(client, sequence, tick, None, None)
 
     @abstractmethod
     def state_hashes(self) -> Iterable[int | None]:

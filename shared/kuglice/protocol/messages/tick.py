@@ -7,7 +7,6 @@ from typing import Annotated, ClassVar, Self
 
 from pydantic import Field
 
-from kuglice import _core
 from kuglice.errors import ProtocolError
 from kuglice.inputs.record import RECORD
 from kuglice.protocol.compact import pack_ticks, unpack_ticks
@@ -21,7 +20,6 @@ __all__ = ["MAX_TOLD_TICKS", "Tick"]
 MAX_TOLD_TICKS = 64
 """Ticks per message, the newest and those repeated."""
 HASHED, ACKED = 0x40, 0x80
-OF_THE_SERVER = tuple(_core.INPUT_KINDS.index(kind) for kind in ("join", "leave"))
 
 
 class Tick(CompactMessage, Stretch):
@@ -65,10 +63,9 @@ class Tick(CompactMessage, Stretch):
             if ack.client == client:
                 told.add(ack.sequence)
                 yield ack
-        for tick, records in enumerate(self.inputs, self.first):
-            for kind, who, sequence, *_ in RECORD.iter_unpack(records):
-                if who == client and kind not in OF_THE_SERVER and sequence not in told:
-                    yield Ack(client, sequence, tick, None, None)
+        for ack in self.acting(client):
+            if ack.sequence not in told:
+                yield ack
 
     def write(self, out: bytearray) -> None:
         """Append the fields."""

@@ -1,0 +1,48 @@
+"""Whether the datagrams beside the stream get through, where they are wanted: told when that changes, and once."""
+
+from __future__ import annotations
+
+import logging
+import time
+
+from kuglice.protocol import wants_datagrams
+from kuglice_client.link import Link
+
+__all__ = ["DatagramWatch"]
+
+log = logging.getLogger(__name__)
+
+FIRST_SECONDS = 4.0
+"""After which a link that nobody answers on has been given up."""
+EVERY_SECONDS = 1.0
+
+
+class DatagramWatch:
+    """Warns where a client has to make do with the stream: later ticks and inputs, but nothing wrong."""
+
+    def __init__(self, link: Link, connect: tuple[str, ...]) -> None:
+        self._link = link
+        self._wanted = any(wants_datagrams(endpoint) for endpoint in connect)
+        self._look_at = time.monotonic() + FIRST_SECONDS
+        self._were_up: bool | None = None
+
+    def turn(self, now: float) -> None:
+        """Look, now and then."""
+        if not self._wanted or now < self._look_at:
+            return
+        self._look_at = now + EVERY_SECONDS
+        kinds = self._link.kinds
+        if not kinds:
+            # Cut off altogether: that is told as silence.
+            return
+        up = "udp" in kinds
+        if up == self._were_up:
+            return
+        if not up:
+            what = "never came up" if self._were_up is None else "is dead"
+            log.warning(
+                "the datagram link (udp) %s: ticks and inputs go over %s alone", what, "+".join(kinds)
+            )
+        elif self._were_up is not None:
+            log.info("the datagram link (udp) is up again")
+        self._were_up = up
