@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
-from kuglice.lab import calibration, cost_growth, loops, stability_maps, work_precision
+from kuglice.lab import calibration, cost_growth, loops, network_cost, stability_maps, work_precision
 from kuglice.lab.jobs import Effort, Job
 from kuglice.lab.rows import Rows
 from kuglice.lab.work_precision.scenes import Subject
@@ -35,6 +35,7 @@ def charts() -> list[Chart]:
         Chart("cost_growth", cost_growth.jobs, cost_growth.draw),
         Chart("stability_maps", stability_maps.jobs, stability_maps.draw),
         Chart("loops", loops.jobs, loops.draw),
+        Chart("network_cost", network_cost.jobs, network_cost.draw),
         Chart("planner", calibration.jobs, calibration.draw),
     ]
 

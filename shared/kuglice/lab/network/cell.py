@@ -112,6 +112,8 @@ def _figures(game: Game, outcome: Outcome) -> dict[str, Value]:
         "rollback_depth": _mean(_depth(client) for client in acting),
         "rollback_deepest": max(client["deepest_rollback"] for client in acting),
         "correction_worst_radii": max(client["worst_correction_radii"] for client in acting),
+        "visible_mean_radii": _mean(client["feel"]["correction_radii"]["mean"] for client in acting),
+        "visible_worst_radii": max(client["feel"]["correction_radii"]["worst"] for client in acting),
         "onlooker_rollbacks_per_second": _mean(client["rollbacks"] / client["seconds"] for client in looking),
         "onlooker_correction_worst_radii": max(
             (client["worst_correction_radii"] for client in looking), default=""
