@@ -8,12 +8,14 @@ import threading
 import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
 from kuglice import World
 from kuglice.errors import JoinError, ProtocolError
 from kuglice.inputs import Input, rounded
 from kuglice.protocol import DEFAULT_ENDPOINT, PART_BYTES, Ack, Assembly, History, Keys, Tick, check_name
+from kuglice.study.recorder import StudyRecorder
 from kuglice_client.bots import BOTS, Sight
 from kuglice_client.clock import Clock
 from kuglice_client.datagram_watch import DatagramWatch
@@ -24,7 +26,7 @@ from kuglice_client.link import Link
 from kuglice_client.outbox import Outbox
 from kuglice_client.pace import judge_pace, step_seconds
 from kuglice_client.pinging import Pinging
-from kuglice_client.prediction import Prediction
+from kuglice_client.prediction import Floats, Ids, Prediction
 from kuglice_client.reconcile import Reconciler
 from kuglice_client.screen import FRAME_RATE, Frames, Screen
 from kuglice_client.summary import figures, summarise
@@ -61,7 +63,7 @@ class ClientSettings:
     the effect, for those who prefer fewer corrections of others to acting at once. `exact_inputs`: send every
     bit of a force instead of two bytes per number (kuglice.inputs.rounded). `check_snapshots`: compare the
     server's published snapshots too, byte by byte; hashes are compared anyway, and snapshots cost most of the
-    traffic.
+    traffic. `study`: where to record what is seen, acted and confirmed (kuglice.study).
     """
 
     connect: tuple[str, ...] = (DEFAULT_ENDPOINT,)
@@ -73,6 +75,7 @@ class ClientSettings:
     input_delay: int = 0
     exact_inputs: bool = False
     check_snapshots: bool = False
+    study: Path | None = None
 
     def __post_init__(self) -> None:
         if self.name is not None:
@@ -97,9 +100,11 @@ class Client:
         self.stop = stop if stop is not None else threading.Event()
         self.totals = Totals()
         self.screen = Screen()
+        self._study: StudyRecorder | None = None
         self.link = Link(settings.connect, deadline=deadline, stop=self.stop)
         self._datagrams = DatagramWatch(self.link, settings.connect)
         try:
+            self._study = None if settings.study is None else StudyRecorder(settings.study)
             world = settings.world or find_world(self.link, deadline=deadline, stop=self.stop)
             self._keys = Keys(world)
             # First the stream, then the rest: what happens while we join is in its buffer.
@@ -146,6 +151,8 @@ class Client:
         tick = self._acting_tick(now) + self.settings.input_delay
         mine = self.outbox.add(given, tick, lead=self.clock.lead, made=now)
         self.prediction.act(mine, tick)
+        if self._study is not None:
+            self._study.acted(now, mine, tick)
         self.screen.feel.acted(mine.sequence, tick, now)
 
     def turn(self, now: float) -> float:
@@ -156,7 +163,7 @@ class Client:
         self._receive(now)
         self._datagrams.turn(now)
         if self.healing.turn(now, silent=now - self._heard_at > self._silence):
-            self.prediction.distrust()
+            self._replaced(now)
         if self.healing.brought is not None:
             self._brought(self.healing.brought, now)
         round_trip = self._pinging.turn(now, self.confirmed.tick - 1)
@@ -176,6 +183,10 @@ class Client:
     def frame(self, now: float) -> None:
         """A frame is drawn: what can be seen in it is counted."""
         self.screen.frame(now, self.prediction)
+        if self._study is not None:
+            self._study.frame(
+                now, self.prediction.shown[1], self.screen.alpha, self.confirmed.tick, self._seen
+            )
 
     def run(
         self,
@@ -186,18 +197,18 @@ class Client:
     ) -> None:
         """Play until `stop`, or for that long.
 
-        `each_frame` gets the client and alpha, `fps` times per second; without it frames are only counted.
+        `each_frame` gets the client and alpha, `fps` times per second: a film leaves no frame out. Without `fps`
+        it is as on a screen, which does.
         """
         begin = time.monotonic()
-        filmed = fps is not None and each_frame is not None
-        frames = Frames(fps or FRAME_RATE, all_of_them=filmed)
+        frames = Frames(fps or FRAME_RATE, all_of_them=fps is not None)
         while not self.stop.is_set():
             now = time.monotonic()
             alpha = self.turn(now)
             played = now - begin if seconds is None else min(now - begin, seconds)
             for _ in range(frames.due(played)):
                 self.frame(time.monotonic())
-                if filmed and each_frame is not None:
+                if each_frame is not None:
                     each_frame(self, alpha)
             if seconds is not None and now - begin >= seconds:
                 break
@@ -219,6 +230,8 @@ class Client:
 
     def close(self, timeout: float = 5.0) -> bool:
         """Leave. False if Zenoh did not finish within `timeout` seconds."""
+        if self._study is not None:
+            self._study.close()
         return self.link.close(timeout)
 
     def __enter__(self) -> Self:
@@ -266,6 +279,15 @@ class Client:
                 resend_seconds=max(0.1, 2 * joined.round_trip),
             )
         )
+        if self._study is not None:
+            self._study.joined(
+                now,
+                joined.world,
+                name=self.settings.name,
+                number=joined.number,
+                epoch=joined.epoch,
+                rate=about.rate,
+            )
         self._assembly = Assembly()
         self._heard_at = now
         self._silence = max(SILENCE_SECONDS, SILENCE_TICKS / about.rate)
@@ -289,7 +311,7 @@ class Client:
                 log.warning("%s", error)
                 continue
             if whole is not None and self.reconciler.received(whole):
-                self.prediction.distrust()
+                self._replaced(now)
         for message in self.link.ticks():
             if message.epoch != self.epoch:
                 if message.epoch not in self._other_epochs:
@@ -324,10 +346,17 @@ class Client:
                 continue
             self.prediction.settle(pending.given, pending.tick, ack.tick)
             early = pending.early(ack)
+            if self._study is not None:
+                self._study.answered(self._heard_at, pending.given.sequence, ack.tick, early)
             if early is not None:
                 self.clock.reported(early, lead=pending.lead, made=pending.made)
             if ack.refused is not None:
                 log.warning("refused: %s", ack.refused)
+
+    def _seen(self) -> tuple[Ids, Floats]:
+        """Ids and positions of the balls of the last frame."""
+        ids, position = self.prediction.drawn(self.screen.alpha)
+        return ids, self.screen.seen(ids, position)
 
     def _confirm(self, now: float) -> bool:
         """Step through what is known, or, if that is much, through some of it. Whether that was all."""
@@ -335,8 +364,10 @@ class Client:
         for step in self.follower.advance():
             self.prediction.confirm(step.entry)
             self.reconciler.confirmed(step)
+            if self._study is not None:
+                self._study.tick(now, step.entry.tick, step.entry.inputs, step.entry.state_hash)
             if self.reconciler.compare_waiting():
-                self.prediction.distrust()
+                self._replaced(now)
                 break
             if time.monotonic() - now > CONFIRM_SECONDS:
                 done = False
@@ -357,13 +388,21 @@ class Client:
         def in_time() -> bool:
             return time.monotonic() < until
 
-        prediction.reconcile(self.confirmed, in_time)
+        reached = prediction.world.tick
+        if prediction.reconcile(self.confirmed, in_time) and self._study is not None:
+            self._study.rollback(now, self.confirmed.tick, reached)
         self._switch(now)
         if tick > prediction.shown[1].tick:
             self._let_bot_act(now)
         while step and prediction.world.tick < tick and in_time() and prediction.may_step(self.confirmed):
             prediction.step()
             self._switch(now)
+
+    def _replaced(self, now: float) -> None:
+        """The confirmed world is another now: the server's."""
+        self.prediction.distrust()
+        if self._study is not None:
+            self._study.state(now, self.confirmed)
 
     def _switch(self, now: float) -> None:
         before = self.prediction.switched(self.confirmed)

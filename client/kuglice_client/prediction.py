@@ -20,7 +20,7 @@ from kuglice.errors import StepError
 from kuglice.inputs import Input, pack
 from kuglice.protocol import StretchedTick
 
-__all__ = ["Drawn", "Prediction"]
+__all__ = ["Drawn", "Floats", "Ids", "Prediction"]
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.uint64]

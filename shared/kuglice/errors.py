@@ -12,7 +12,7 @@ KugliceError
 │   ├── DivergedError         a position or velocity that is no longer finite
 │   ├── EventLimitError       more collisions in one tick than the limit
 │   └── BudgetError           more work in one tick than the caller gave it
-├── ReplayError               a replay file that is damaged, or not one
+├── ReplayError               a replay or study file that is damaged, or not one
 ├── ProtocolError             a message that is damaged, too large, or of another version
 ├── NetworkError              a link that cannot be opened or conditioned as asked
 ├── JoinError                 a server that cannot be joined
@@ -99,7 +99,7 @@ class BudgetError(StepError):
 
 
 class ReplayError(KugliceError):
-    """A replay file that is damaged, or none at all."""
+    """A replay or study file that is damaged, or none at all."""
 
 
 class ProtocolError(KugliceError):

@@ -6,7 +6,8 @@ import pytest
 
 import kuglice as kg
 from kuglice.replay import Recorder, Replay, difference
-from kuglice.replay.format import FRAME, MAGIC, State, Tick, read_records, write_record
+from kuglice.replay.format import MAGIC, State, Tick, read_replay
+from kuglice.replay.framing import FRAME, write_record
 
 SCENE = kg.scenes.arena(players=2, balls=60)
 
@@ -116,14 +117,14 @@ def test_states_stay_below_a_bound_of_bytes_per_second(path):
         for _ in range(120):
             world.step()
             recorder.add()
-    states = [each for each in read_records(path) if isinstance(each, State)]
+    states = [each for each in read_replay(path) if isinstance(each, State)]
     assert [each.tick for each in states] == [110, 120]  # the last one because the recording ends there
     assert len(states[0].data) <= 110 / 60 * 64 * 1024
 
 
 def test_a_wrong_hash_is_told_from_a_world_that_differs(path):
     record(path, ticks=20)
-    records = list(read_records(path))
+    records = list(read_replay(path))
     with path.open("wb") as file:
         file.write(MAGIC)
         for each in records:

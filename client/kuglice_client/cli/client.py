@@ -84,6 +84,10 @@ def client(
             help="Compare the server's snapshots too, not hashes alone; needs far more bytes.",
         ),
     ] = False,
+    study: Annotated[
+        Path | None,
+        typer.Option(help="Record what is seen, acted and confirmed, for `kuglice study`."),
+    ] = None,
     summary_json: Annotated[
         Path | None, typer.Option(help="Write the closing figures to this file too.")
     ] = None,
@@ -107,6 +111,7 @@ def client(
         wait=wait,
         lose=(lambda _: random.random() < lose) if lose else None,
         input_delay=input_delay,
+        study=study,
         check_snapshots=check_snapshots,
     )
     look = _Look(fps, _pixels(size), style, tuple(overlay or ("tick",)), trails, still_every)
@@ -118,7 +123,11 @@ def client(
         if film_settings is not None:
             film = _film(playing, film_settings)
         with STDERR.status("playing") as line:
-            playing.run(seconds=seconds, fps=fps, each_frame=_shower(film, look, line))
+            playing.run(
+                seconds=seconds,
+                fps=None if film is None else fps,
+                each_frame=_shower(film, look, line),
+            )
         summary = playing.summary()
     finally:
         # Whatever happened: the server is told at once, and what was played becomes a film.

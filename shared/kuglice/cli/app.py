@@ -17,7 +17,7 @@ __all__ = ["GROUP", "build"]
 
 GROUP = "kuglice.commands"
 """Entry points: modules with `register(app)`."""
-OWN = ("scenes", "plan", "replay", "demo", "router")
+OWN = ("scenes", "plan", "replay", "study", "demo", "router")
 ORDER = (
     "demo",
     "scenes",
@@ -28,6 +28,7 @@ ORDER = (
     "view",
     "router",
     "replay",
+    "study",
     "chart",
     "bench",
     "proxy",

@@ -12,7 +12,8 @@ from typing import Self
 from kuglice import _core
 from kuglice.errors import LimitError, ReplayError
 from kuglice.inputs import Input, pack
-from kuglice.replay.format import MAGIC, End, Head, State, Tick, write_record
+from kuglice.replay.format import MAGIC, End, Head, State, Tick
+from kuglice.replay.framing import write_record
 from kuglice.version import VERSION
 from kuglice.world import World
 

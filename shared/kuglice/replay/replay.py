@@ -12,7 +12,7 @@ from kuglice.errors import KugliceError, ReplayError
 from kuglice.inputs import Input, unpack
 from kuglice.model import Model
 from kuglice.replay.difference import difference
-from kuglice.replay.format import FORMAT, End, Head, State, Tick, read_records
+from kuglice.replay.format import FORMAT, End, Head, State, Tick, read_replay
 from kuglice.replay.verification import Mismatch, Verification
 from kuglice.scene import Scene
 from kuglice.world import World
@@ -107,7 +107,7 @@ class Replay:
 
 
 def _read(path: Path) -> tuple[Head, list[Tick], dict[int, bytes], End | None]:
-    records = read_records(path)
+    records = read_replay(path)
     head = next(records, None)
     if not isinstance(head, Head):
         raise ReplayError(

@@ -1,0 +1,70 @@
+"""`kuglice study FILE`: what a client saw, against what the server's world was."""
+
+from __future__ import annotations
+
+import csv
+import json
+import statistics
+from dataclasses import asdict, fields
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from kuglice.cli.figures import print_figures
+from kuglice.cli.rows import print_rows
+from kuglice.study import SeenFrame, Study, other_screen_delays
+from kuglice.study.table import by_second, summary
+
+__all__ = ["register"]
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command("study")(study)
+
+
+def study(
+    file: Annotated[Path, typer.Argument(help="What `kuglice client --study` wrote.", metavar="FILE")],
+    other: Annotated[
+        list[Path] | None,
+        typer.Option(
+            help="Study of another client of the same game and machine: how long until her inputs were seen here. "
+            "May be repeated."
+        ),
+    ] = None,
+    frames_csv: Annotated[
+        Path | None, typer.Option("--csv", help="Write a row for every frame that was compared.")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="The same figures as JSON.")] = False,
+) -> None:
+    """Compare what a client drew with what the server's world was at that tick, second by second.
+
+    Errors are in radii, corrections that glide included. Ends with code 2 if the file is no study or damaged.
+    """
+    seen = Study.load(file)
+    frames = list(seen.frames())
+    figures = summary(seen, frames)
+    for path in other or []:
+        acting = Study.load(path)
+        delays = other_screen_delays(acting, seen)
+        heading = f"delay ms from {acting.joined.name or path}"
+        figures[heading] = 1000 * statistics.fmean(delays) if delays else None
+    if frames_csv is not None:
+        _write(frames_csv, frames)
+    seconds = by_second(seen, frames)
+    if as_json:
+        print(json.dumps({"study": figures, "seconds": seconds}, indent=2))
+        return
+    if seconds:
+        print_rows(f"{file}: errors in radii", seconds, as_json=False)
+    shown = {name: "-" if value is None else value for name, value in figures.items()}
+    print_figures(f"Study of {seen.joined.name or '(spectator)'}", {"study": shown}, as_json=False)
+
+
+def _write(path: Path, frames: list[SeenFrame]) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.open("w", newline="") as file:
+        writer = csv.DictWriter(file, [field.name for field in fields(SeenFrame)])
+        writer.writeheader()
+        writer.writerows(asdict(frame) for frame in frames)
