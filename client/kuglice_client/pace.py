@@ -50,5 +50,7 @@ def judge_pace(seconds: float, *, rate: float, balls: int) -> None:
         f"{1000 / rate:.3g} ms: {speed:.2g} times real time"
     )
     if speed < 1.0:
-        raise JoinError(f"{told}, at least 1 needed to follow: join as a view, with --view")
-    log.warning("%s, at least %g needed to predict: better join as a view, with --view", told, PREDICTING)
+        raise JoinError(f"{told}, at least 1 needed to follow: look at a part of it with `kuglice view`")
+    log.warning(
+        "%s, at least %g needed to predict: better look at a part of it with `kuglice view`", told, PREDICTING
+    )

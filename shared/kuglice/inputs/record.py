@@ -27,6 +27,8 @@ NUMBERS: dict[str, tuple[str, ...]] = {
     "kick": ("vx", "vy"),
 }
 PADDING = (0.0,) * 6
+OF_THE_SERVER = tuple(_core.INPUT_KINDS.index(kind) for kind in ("join", "leave"))
+"""Kinds written by the server for a client, under numbers that inputs of the client's own may have too."""
 WITH_BALL = ("remove", "kick")
 CLASSES: dict[str, Any] = {kind.model_fields["kind"].default: kind for kind in KINDS}
 

@@ -4,15 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from kuglice import _core
-from kuglice.inputs.record import RECORD
+from kuglice.inputs.record import OF_THE_SERVER, RECORD
 from kuglice.study.format import Acted, DrawnFrame, Joined, Tick
 from kuglice.study.study import Study
 
 __all__ = ["other_screen_delays", "own_screen_delays"]
-
-OF_THE_SERVER = tuple(_core.INPUT_KINDS.index(kind) for kind in ("join", "leave"))
-"""Written by the server for a client, under numbers that her own inputs may have too."""
 
 
 def own_screen_delays(study: Study) -> list[float]:

@@ -6,15 +6,13 @@ from abc import abstractmethod
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from kuglice import _core
-from kuglice.inputs.record import RECORD
+from kuglice.inputs.record import OF_THE_SERVER, RECORD
 from kuglice.protocol.messages.ack import Ack
 from kuglice.protocol.messages.envelope import Message, TickNumber
 
 __all__ = ["HASH_BYTES", "Stretch", "StretchedTick"]
 
 HASH_BYTES = 8
-OF_THE_SERVER = tuple(_core.INPUT_KINDS.index(kind) for kind in ("join", "leave"))
 
 
 class StretchedTick(NamedTuple):
