@@ -126,7 +126,7 @@ def test_all_regions_together_are_the_world_within_the_bound_that_was_told(wired
     assert np.abs(velocity - wire.world.velocity).max() <= wire.terms.velocity_quantum / 2
     assert (radius == wire.world.radius).all()
     assert (mass == wire.world.mass).all()
-    assert wire.terms.position_quantum / 2 <= wire.world.radius.min() / 256
+    assert wire.terms.position_quantum / 2 <= wire.world.radius.min() / 512
 
 
 def test_only_what_somebody_looks_at_is_told(wired):

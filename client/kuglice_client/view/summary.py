@@ -16,6 +16,7 @@ __all__ = ["summarise"]
 def summarise(view: View, *, seconds: float) -> dict[str, Any]:
     """Values for JSON. Errors are distances between told and predicted places of balls in sight, in radii."""
     known, accuracy, interest = view.known, view.accuracy, view.interest
+    region_bytes = view.link.traffic.received["regions"]
     rates = view.link.traffic.per_second(seconds)
     paces = Counter(interest.paces.values())
     radius = known.world.radius
@@ -36,6 +37,8 @@ def summarise(view: View, *, seconds: float) -> dict[str, Any]:
         "regions_by_pace": {f"1/{1 << pace}": paces[pace] for pace in sorted(paces)},
         "regions_left_out": interest.left_out,
         "updates": view.updates,
+        "bytes_per_update": region_bytes / view.updates if view.updates else None,
+        "bytes_per_ball_told": region_bytes / view.balls_told if view.balls_told else None,
         "updates_too_old": known.too_old,
         "rewinds": known.rewinds,
         "ticks_rerun": known.ticks_rerun,

@@ -61,6 +61,7 @@ class View:
         self.malformed = 0
         self.rejoins = 0
         self.updates = 0
+        self.balls_told = 0
         self._balanced_at = began
         self.link = Link(settings.connect, deadline=deadline, stop=self.stop)
         try:
@@ -230,6 +231,7 @@ class View:
                 return
             self.interest.note(told.node, len(data))
             self.updates += self.known.take(told)
+            self.balls_told += len(told.id)
             tick = told.tick
         self._heard_at = now
         if tick > self._newest:

@@ -13,8 +13,8 @@ __all__ = ["choose_terms"]
 
 BALLS_PER_NODE = 128
 """On average, at the most: fewer per message would be mostly envelope, more would be mostly out of sight."""
-STEPS_PER_RADIUS = 128
-"""Of the smallest ball: a position is then told with an error of at most a 256th of a radius each way."""
+STEPS_PER_RADIUS = 256
+"""Of the smallest ball: a position is then told with an error of at most a 512th of a radius each way."""
 STEPS_PER_BOX = 1 << 20
 """Where there is no ball yet that would say how exact to be."""
 
@@ -34,8 +34,8 @@ def choose_terms(world: World, *, rate: float) -> RegionTerms:
         depth=_depth(max(world.count, len(shapes))),
         rate=rate,
         position_quantum=quantum,
-        # Half as much as would add another error of position until the next message.
-        velocity_quantum=_power_of_two(quantum * rate / 2),
+        # Until the next message it adds no more to the error of a position than rounding that did.
+        velocity_quantum=_power_of_two(quantum * rate),
         shapes=shapes,
     )
 

@@ -32,10 +32,11 @@ class Heard:
 
 
 class Crowd:
-    """A context manager; `grow` adds sessions that connect to `endpoint`. Raises NetworkError."""
+    """A context manager; `grow` adds sessions of that kind that connect to `endpoint`. Raises NetworkError."""
 
-    def __init__(self, world: str) -> None:
+    def __init__(self, world: str, kind: str = "client") -> None:
         self._world = world
+        self._kind = kind
         self._processes: list[subprocess.Popen[bytes]] = []
         self._before: list[dict[str, Any]] = []
 
@@ -43,9 +44,9 @@ class Crowd:
         """Add that many."""
         while sessions > 0:
             some = min(sessions, SESSIONS_PER_PROCESS)
-            listeners = [sys.executable, "-m", "kuglice.lab.capacity.listeners", endpoint, self._world]
+            listeners = [sys.executable, "-m", "kuglice.lab.capacity.listeners", endpoint]
             process = subprocess.Popen(
-                ["nice", "-n", str(STEPS_ASIDE), *listeners],
+                ["nice", "-n", str(STEPS_ASIDE), *listeners, self._world, self._kind],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 bufsize=0,
@@ -66,8 +67,7 @@ class Crowd:
             heard.messages += came
             heard.bytes += new["bytes"] - old.get("bytes", 0)
             heard.malformed += new["malformed"] - old.get("malformed", 0)
-            since = old.get("newest", (new["first"] or 0) - 1)
-            heard.missed += max(0, new["newest"] - since - came)
+            heard.missed += max(0, new["told"] - old.get("told", 0) - came)
         return heard
 
     @property

@@ -1,6 +1,6 @@
 """The process of many listeners: real sessions, each subscribed as a client would be, that decode all they get.
 
-`python -m kuglice.lab.capacity.listeners ENDPOINT WORLD`. Each line on stdin is a number of sessions to add, or
+`python -m kuglice.lab.capacity.listeners ENDPOINT WORLD KIND`. Each line on stdin is a number of sessions to add, or
 empty for a report; each is answered by a line of JSON. At the end of stdin it ends.
 """
 
@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Callable
 from typing import Any
 
 import zenoh
 
 from kuglice.errors import ProtocolError
+from kuglice.lab.capacity.looker import Looker
 from kuglice.protocol import Keys, Tick, client_configuration, close_session, decode, open_session
 
 __all__ = ["Listener"]
@@ -21,7 +23,7 @@ TIMEOUT = 10.0
 
 
 class Listener:
-    """One session that hears the tick stream."""
+    """One session that hears the tick stream: what a full client is to the server."""
 
     def __init__(self, endpoint: str, keys: Keys) -> None:
         self.messages = 0
@@ -34,14 +36,14 @@ class Listener:
             keys.tick, zenoh.handlers.Callback(self._hear, indirect=False)
         )
 
-    def report(self) -> dict[str, int | None]:
-        """What came so far; `first` and `newest` are ticks."""
+    def report(self) -> dict[str, int]:
+        """What came so far, and how much there was to come: `told`."""
+        told = 0 if self.first is None else self.newest + 1 - self.first
         return {
             "messages": self.messages,
             "bytes": self.bytes,
             "malformed": self.malformed,
-            "first": self.first,
-            "newest": self.newest,
+            "told": told,
         }
 
     def close(self) -> None:
@@ -61,12 +63,15 @@ class Listener:
         self.newest = max(self.newest, tick)
 
 
-def main(endpoint: str, world: str) -> None:
+KINDS: dict[str, Callable[[str, Keys], Listener | Looker]] = {"client": Listener, "view": Looker}
+
+
+def main(endpoint: str, world: str, kind: str) -> None:
     """Serve stdin."""
-    listeners: list[Listener] = []
+    listeners: list[Listener | Looker] = []
     for line in sys.stdin:
         if line.strip():
-            listeners += [Listener(endpoint, Keys(world)) for _ in range(int(line))]
+            listeners += [KINDS[kind](endpoint, Keys(world)) for _ in range(int(line))]
         print(json.dumps([each.report() for each in listeners]), flush=True)
     for each in listeners:
         each.close()

@@ -22,7 +22,9 @@ from kuglice.protocol import Keys, Status, client_configuration, close_session, 
 
 __all__ = ["LADDER", "ROUTERS", "jobs"]
 
-SCENE = "arena:players=4,balls=600"
+SCENES = {"client": "arena:players=4,balls=600", "view": "gas:n=10000"}
+"""By what listens: a full client hears ticks, a view the regions of a part of a larger crowd."""
+KINDS = tuple(SCENES)
 WORLD = "crowded"
 PLAYERS = ("chaser", "orbiter")
 """Real clients that play all the time, so that ticks have inputs in them."""
@@ -57,10 +59,16 @@ class _House:
         )
 
 
-def jobs(*, routers: Sequence[int], ladder: Sequence[int], seconds: float) -> list[Job]:
-    """One per number of routers."""
+def jobs(
+    *, routers: Sequence[int], ladder: Sequence[int], seconds: float, kinds: Sequence[str] = KINDS
+) -> list[Job]:
+    """One per kind of listeners and number of routers."""
     return [
-        Job(f"{_topology(number)}, up to {ladder[-1]} clients", partial(_climb, number, ladder, seconds))
+        Job(
+            f"{_topology(number)}, up to {ladder[-1]} {kind}s",
+            partial(_climb, kind, number, ladder, seconds),
+        )
+        for kind in kinds
         for number in routers
     ]
 
@@ -69,19 +77,19 @@ def _topology(routers: int) -> str:
     return ("direct", "one router", "two routers")[routers]
 
 
-def _climb(routers: int, ladder: Sequence[int], seconds: float) -> Rows:
+def _climb(kind: str, routers: int, ladder: Sequence[int], seconds: float) -> Rows:
     rows: list[Row] = []
     with (
         tempfile.TemporaryDirectory() as folder,
-        _house(Path(folder), routers) as house,
-        Crowd(WORLD) as crowd,
+        _house(Path(folder), kind, routers) as house,
+        Crowd(WORLD, kind) as crowd,
     ):
         listeners = 0
         for rung in ladder:
             _grow(crowd, house.doors, rung - listeners)
             listeners = rung
             row = _measure(house, crowd, listeners, seconds)
-            rows.append({"topology": _topology(routers), **row})
+            rows.append({"kind": kind, "topology": _topology(routers), **row})
             if row["late_ticks"] or row["missed_permille"]:
                 break
     return rows
@@ -109,7 +117,7 @@ def _measure(house: _House, crowd: Crowd, listeners: int, seconds: float) -> Row
     expected = heard.messages + heard.missed
     return {
         "listeners": listeners,
-        "players": len(PLAYERS),
+        "players": len(house.status().clients),
         "tick_rate": (after.tick - before.tick) / spent,
         "late_ticks": after.counters["late ticks"] - before.counters["late ticks"],
         "missed_permille": 1000.0 * heard.missed / expected if expected else 1000.0,
@@ -121,7 +129,7 @@ def _measure(house: _House, crowd: Crowd, listeners: int, seconds: float) -> Row
 
 
 @contextmanager
-def _house(folder: Path, routers: int) -> Iterator[_House]:
+def _house(folder: Path, kind: str, routers: int) -> Iterator[_House]:
     processes: list[CommandProcess] = []
     session: zenoh.Session | None = None
 
@@ -133,13 +141,13 @@ def _house(folder: Path, routers: int) -> Iterator[_House]:
 
     try:
         endpoint = f"tcp/127.0.0.1:{free_port()}"
-        server = start("server", "balls on", "server", SCENE, "--world", WORLD, "--listen", endpoint)
+        server = start("server", "balls on", "server", SCENES[kind], "--world", WORLD, "--listen", endpoint)
         doors = [f"tcp/127.0.0.1:{free_port()}" for _ in range(routers)]
         passing_on = [
             start(f"router-{number}", "router from", "router", "--connect", endpoint, "--listen", door)
             for number, door in enumerate(doors)
         ]
-        for bot in PLAYERS:
+        for bot in PLAYERS if kind == "client" else ():
             start(bot, "joined world", "client", "--connect", endpoint, "--bot", bot, "--name", bot)
         session = open_session(client_configuration([endpoint], timeout=5.0))
         yield _House(server, passing_on, doors or [endpoint], session)

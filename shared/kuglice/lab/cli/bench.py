@@ -11,7 +11,7 @@ import typer
 
 from kuglice.cli.rows import print_rows
 from kuglice.lab import bench as benches
-from kuglice.lab.cli import capacity, network
+from kuglice.lab.cli import capacity, network, wire
 from kuglice.lab.cli.progress import progress
 from kuglice.lab.machine import this_machine
 from kuglice.lab.results import Results, write
@@ -26,6 +26,7 @@ def register(app: typer.Typer) -> None:
     group.callback()(bench)
     capacity.register(group)
     network.register(group)
+    wire.register(group)
     app.add_typer(group, name="bench")
 
 

@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from kuglice.cli.rows import print_rows
-from kuglice.lab.capacity.measure import LADDER, ROUTERS, jobs
+from kuglice.lab.capacity.measure import KINDS, LADDER, ROUTERS, jobs
 from kuglice.lab.cli.progress import progress
 from kuglice.lab.jobs import done
 from kuglice.lab.machine import this_machine
@@ -32,21 +32,33 @@ def capacity(
     routers: Annotated[
         list[int] | None, typer.Option(help="Routers to put before the clients: 0, 1 or 2. [default: each]")
     ] = None,
+    kind: Annotated[
+        list[str] | None, typer.Option(help="What listens: client or view. [default: each]")
+    ] = None,
     out: Annotated[Path, typer.Option(help="Where JSON and CSV go.")] = Path("out/bench"),
     as_json: Annotated[bool, typer.Option("--json", help="The same figures as JSON.")] = False,
 ) -> None:
     """Feed more and more clients until a tick is late.
 
-    Server, routers, two players and all listeners share this machine; the listeners, which are real sessions
-    that decode every message, step aside for the server. A row is a rung of the ladder, and a ladder ends at
-    the first rung on which a tick was late or a listener missed one.
+    Full clients hear the ticks of an arena that two players stir; views hear 16 of the 256 regions of a gas of
+    10,000 balls each, ten times per second. All of them share this machine with server and routers; they are
+    real sessions that decode every message, and step aside for the server. A row is a rung of the ladder, and a
+    ladder ends at the first rung on which a tick was late or a listener missed a message.
     """
     wanted = tuple(sorted(set(routers))) if routers else ROUTERS
     if any(number not in ROUTERS for number in wanted):
         raise typer.BadParameter(
             f"routers {list(wanted)}: must be among {list(ROUTERS)}", param_hint="--routers"
         )
-    work = jobs(routers=wanted, ladder=LADDER[:3] if quick else LADDER, seconds=2.0 if quick else seconds)
+    kinds = tuple(dict.fromkeys(kind)) if kind else KINDS
+    if any(each not in KINDS for each in kinds):
+        raise typer.BadParameter(f"kind {list(kinds)}: must be among {list(KINDS)}", param_hint="--kind")
+    work = jobs(
+        routers=wanted,
+        ladder=LADDER[:3] if quick else LADDER,
+        seconds=2.0 if quick else seconds,
+        kinds=kinds,
+    )
     results = Results(this_machine())
     with progress(len(work)) as note:
         results.rows += done(work, note)

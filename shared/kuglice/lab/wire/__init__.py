@@ -1,0 +1,1 @@
+"""What a world takes on the wire, however many balls it has: `kuglice bench wire`."""
