@@ -5,16 +5,19 @@ from __future__ import annotations
 import statistics
 import tempfile
 import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from kuglice.lab.network.conditioner import Conditioner, open_link
 from kuglice.lab.network.conditions import Conditions
 from kuglice.lab.network.game import Game, Outcome
 from kuglice.lab.network.subjects import Subject
 from kuglice.lab.rows import Row, Value
+from kuglice.study import other_screen_delays, own_screen_delays
 
 __all__ = ["Cell"]
 
@@ -74,7 +77,7 @@ class Cell:
             game.play(self.seconds)
             after, spent = link.counts(), time.monotonic() - began
             outcome = game.finish()
-            figures = _figures(game, outcome)
+            figures = _figures(game, outcome) | _delays(game)
         for way in ("up", "down"):
             # Of the payload alone a proxy knows nothing more than the clients do.
             wire = _of_way(after, way) - _of_way(before, way)
@@ -118,6 +121,9 @@ def _figures(game: Game, outcome: Outcome) -> dict[str, Value]:
         "onlooker_correction_worst_radii": max(
             (client["worst_correction_radii"] for client in looking), default=""
         ),
+        "onlooker_visible_mean_radii": _mean(
+            client["feel"]["correction_radii"]["mean"] for client in looking
+        ),
         "payload_up": _mean(client["bytes_per_second_sent"] for client in acting),
         "payload_down": _mean(client["bytes_per_second_received"] for client in clients.values()),
         "payload_down_ticks": _mean(client["bytes_per_second_ticks"] for client in clients.values()),
@@ -126,6 +132,29 @@ def _figures(game: Game, outcome: Outcome) -> dict[str, Value]:
         "hashes_equal": int(outcome.hashes_equal),
         "server_late_ticks": outcome.server["late_ticks"],
     }
+
+
+def _delays(game: Game) -> dict[str, Value]:
+    """Milliseconds from an input to the first frame of 60 per second that shows it, by what the clients recorded."""
+    studies = game.studies()
+    own = [delay for name in game.acting for delay in own_screen_delays(studies[name])]
+    other = [
+        delay
+        for name in game.acting
+        for looking in game.names
+        if looking != name
+        for delay in other_screen_delays(studies[name], studies[looking])
+    ]
+    return {
+        "own_screen_ms": _milliseconds(own, 0.5),
+        "own_screen_p99_ms": _milliseconds(own, 0.99),
+        "other_screen_ms": _milliseconds(other, 0.5),
+        "other_screen_p99_ms": _milliseconds(other, 0.99),
+    }
+
+
+def _milliseconds(delays: Sequence[float], quantile: float) -> Value:
+    return 1000.0 * float(np.quantile(delays, quantile)) if delays else ""
 
 
 def _depth(client: Mapping[str, Any]) -> float:

@@ -14,6 +14,7 @@ from kuglice.lab.network.conditioner import Conditioner
 from kuglice.lab.network.subjects import Subject
 from kuglice.processes import CommandProcess
 from kuglice.replay import Replay
+from kuglice.study import Study
 from kuglice.world import World
 
 __all__ = ["Game", "Outcome"]
@@ -106,6 +107,10 @@ class Game:
         clients = {name: json.loads(self._summary(name).read_text()) for name in self.names}
         return Outcome(json.loads(self._server.stdout()), clients, self._equal(clients))
 
+    def studies(self) -> dict[str, Study]:
+        """What each client saw, once all of them have finished."""
+        return {name: Study.load(self._study(name)) for name in self.names}
+
     def recorded_ticks(self) -> int:
         """How far the server's recording is: about a tick behind the server."""
         return len(Replay.load(self._folder / RECORDING))
@@ -143,7 +148,7 @@ class Game:
                     *("client", *connect, "--name", name, "--wait", JOIN_SECONDS, "--json"),
                     *(("--bot", bots[name]) if name in bots else ()),
                     *(() if self._snapshot_every is None else ("--check-snapshots",)),
-                    *("--summary-json", self._summary(name)),
+                    *("--summary-json", self._summary(name), "--study", self._study(name)),
                 ],
                 prefix=self._link.client_prefix,
             )
@@ -170,6 +175,9 @@ class Game:
 
     def _summary(self, name: str) -> Path:
         return self._folder / f"{name}.json"
+
+    def _study(self, name: str) -> Path:
+        return self._folder / f"{name}.study"
 
     def _equal(self, clients: dict[str, dict[str, Any]]) -> bool:
         found: dict[int, str] = {}

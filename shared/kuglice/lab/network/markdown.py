@@ -56,9 +56,10 @@ COLUMNS: tuple[tuple[str, Callable[[Row], str]], ...] = (
     ("scene", lambda row: str(row["scene"])),
     ("link", _link),
     ("rollbacks/s, depth", _figures("rollbacks_per_second", "rollback_depth", between=", ")),
+    ("to own / other screen, ms", _figures("own_screen_ms", "other_screen_ms")),
     (
-        "worst correction, radii: actors / onlookers",
-        _figures("correction_worst_radii", "onlooker_correction_worst_radii"),
+        "visible correction in radii: mean, worst",
+        _figures("visible_mean_radii", "visible_worst_radii", between=", "),
     ),
     ("lead, ticks", _figures("lead_ticks")),
     ("late ‰", _figures("late_per_1000")),

@@ -21,6 +21,8 @@ def test_a_cell_is_played_cut_and_judged(tmp_path, capfd):
     assert (row["desyncs"], row["hashes_equal"]) == (0, 1)
     assert (row["desyncs_after_cut"], row["hashes_equal_after_cut"]) == (0, 1)
     assert row["inputs"] > 0
+    assert row["own_screen_ms"] > 0
+    assert row["other_screen_ms"] > 0, "the onlooker saw them too"
     assert row["payload_down"] > row["payload_up"] > 0
     assert row["wire_up"] == "", "a proxy sees no headers"
     (again,) = read_csv(tmp_path / "network.csv")
