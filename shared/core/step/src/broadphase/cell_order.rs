@@ -293,3 +293,6 @@ impl Placing<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -300,3 +300,6 @@ fn bounds(discs: &Discs<'_>) -> (Vec2, Vec2) {
     });
     (low, high - low)
 }
+
+#[cfg(test)]
+mod tests;

@@ -200,3 +200,6 @@ fn discs_of(balls: &Balls) -> Discs<'_> {
 fn by_id(balls: &Balls, (first, second): Pair) -> (usize, usize) {
     balls.in_id_order(first as usize, second as usize)
 }
+
+#[cfg(test)]
+mod tests;
