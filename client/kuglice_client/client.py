@@ -7,16 +7,16 @@ import math
 import threading
 import time
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Self
 
 from kuglice import World
 from kuglice.errors import JoinError, ProtocolError
 from kuglice.inputs import Input, rounded
-from kuglice.protocol import DEFAULT_ENDPOINT, PART_BYTES, Ack, Assembly, History, Keys, Tick, check_name
+from kuglice.protocol import PART_BYTES, Ack, Assembly, History, Keys, Tick
 from kuglice.study.recorder import StudyRecorder
-from kuglice_client.bots import BOTS, Sight
+from kuglice_client.autopilot import Autopilot
+from kuglice_client.bots import Sight
 from kuglice_client.clock import Clock
 from kuglice_client.datagram_watch import DatagramWatch
 from kuglice_client.follow import Follower
@@ -29,18 +29,18 @@ from kuglice_client.pinging import Pinging
 from kuglice_client.prediction import Floats, Ids, Prediction
 from kuglice_client.reconcile import Reconciler
 from kuglice_client.screen import FRAME_RATE, Frames, Screen
+from kuglice_client.settings import ClientSettings
 from kuglice_client.summary import figures, summarise
 from kuglice_client.totals import Totals
 
 if TYPE_CHECKING:
     from kuglice_client.render.moment import Moment
 
-__all__ = ["Client", "ClientSettings"]
+__all__ = ["Client"]
 
 log = logging.getLogger(__name__)
 
 PREDICTED_SECONDS = 1.5
-BOT_SECONDS = 1 / 15
 IDLE_SECONDS = 0.002
 STALL_SECONDS = 2.0
 SILENCE_SECONDS = 0.5
@@ -51,43 +51,6 @@ PREDICT_SECONDS = 0.012
 """Of one turn: running forward again that takes longer goes on in the next, and frames come in between."""
 SNAPSHOT_BYTES_PER_BALL = 64
 KNOWN_EPOCHS = 64
-MAX_INPUT_DELAY = 30
-
-
-@dataclass(frozen=True)
-class ClientSettings:
-    """`name`: who we are, None for a spectator. `bot`: an entry of BOTS that plays for us.
-
-    `wait`: seconds to keep trying to join. `lose`: called with the number of each tick message; those for
-    which it says True are thrown away on arrival, to see them heal. `input_delay`: ticks between acting and
-    the effect, for those who prefer fewer corrections of others to acting at once. `exact_inputs`: send every
-    bit of a force instead of two bytes per number (kuglice.inputs.rounded). `check_snapshots`: compare the
-    server's published snapshots too, byte by byte; hashes are compared anyway, and snapshots cost most of the
-    traffic. `study`: where to record what is seen, acted and confirmed (kuglice.study).
-    """
-
-    connect: tuple[str, ...] = (DEFAULT_ENDPOINT,)
-    world: str | None = None
-    name: str | None = None
-    bot: str | None = None
-    wait: float = 10.0
-    lose: Callable[[int], bool] | None = None
-    input_delay: int = 0
-    exact_inputs: bool = False
-    check_snapshots: bool = False
-    study: Path | None = None
-
-    def __post_init__(self) -> None:
-        if self.name is not None:
-            check_name("client", self.name)
-        if self.bot is not None and self.bot not in BOTS:
-            raise ProtocolError(f"bot {self.bot!r}: there is none of that name, only {', '.join(BOTS)}")
-        if self.bot is not None and self.name is None:
-            raise ProtocolError(f"bot {self.bot!r}: needs a client name to play under")
-        if not 0 <= self.input_delay <= MAX_INPUT_DELAY:
-            raise ProtocolError(
-                f"input delay {self.input_delay}: must be within 0 and {MAX_INPUT_DELAY} ticks"
-            )
 
 
 class Client:
@@ -293,8 +256,8 @@ class Client:
         self._silence = max(SILENCE_SECONDS, SILENCE_TICKS / about.rate)
         self._stalled = False
         self._lagging = False
-        self._bot_at = 0
-        self._bot_said: Input | None = None
+        bot = self.settings.bot
+        self._autopilot = None if bot is None else Autopilot(bot, rate=about.rate)
         # The ring must hold a whole snapshot and the begin of the next, also when there will be more balls.
         balls = max(joined.world.count, joined.scene.limits.max_balls)
         self.link.make_room(3 * (SNAPSHOT_BYTES_PER_BALL * balls // PART_BYTES + 1))
@@ -423,16 +386,10 @@ class Client:
         return max(self.prediction.shown[1].tick, math.floor(self.clock.target(now)) - 1)
 
     def _let_bot_act(self, now: float) -> None:
-        if self.settings.bot is None or self.outbox is None or self.outbox.full:
+        if self._autopilot is None or self.outbox is None or self.outbox.full:
             return
-        tick = self._acting_tick(now)
-        if tick < self._bot_at:
-            return
-        self._bot_at = tick + max(1, round(BOT_SECONDS * self.joined.about.rate))
-        given = BOTS[self.settings.bot](Sight(self.prediction.shown[1], self.own))
-        # Inputs are held until changed: saying the same again would only cost bytes.
-        if given is not None and given != self._bot_said:
-            self._bot_said = given
+        given = self._autopilot.wants(Sight(self.prediction.shown[1], self.own), self._acting_tick(now))
+        if given is not None:
             self.act(given)
 
     def _rejoin(self, epoch: int) -> None:

@@ -21,7 +21,8 @@ from kuglice.extras import require
 from kuglice.protocol import DEFAULT_ENDPOINT
 from kuglice_client.bots import BOTS
 from kuglice_client.cli.finishing import finished
-from kuglice_client.client import Client, ClientSettings
+from kuglice_client.client import Client
+from kuglice_client.settings import ClientSettings
 
 if TYPE_CHECKING:
     from kuglice_client.filming import Film, FilmSettings

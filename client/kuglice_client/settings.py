@@ -1,0 +1,51 @@
+"""Who plays, where and how."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from kuglice.errors import ProtocolError
+from kuglice.protocol import DEFAULT_ENDPOINT, check_name
+from kuglice_client.bots import BOTS
+
+__all__ = ["ClientSettings"]
+
+MAX_INPUT_DELAY = 30
+
+
+@dataclass(frozen=True)
+class ClientSettings:
+    """`name`: who we are, None for a spectator. `bot`: an entry of BOTS that plays for us.
+
+    `wait`: seconds to keep trying to join. `lose`: called with the number of each tick message; those for
+    which it says True are thrown away on arrival, to see them heal. `input_delay`: ticks between acting and
+    the effect, for those who prefer fewer corrections of others to acting at once. `exact_inputs`: send every
+    bit of a force instead of two bytes per number (kuglice.inputs.rounded). `check_snapshots`: compare the
+    server's published snapshots too, byte by byte; hashes are compared anyway, and snapshots cost most of the
+    traffic. `study`: where to record what is seen, acted and confirmed (kuglice.study).
+    """
+
+    connect: tuple[str, ...] = (DEFAULT_ENDPOINT,)
+    world: str | None = None
+    name: str | None = None
+    bot: str | None = None
+    wait: float = 10.0
+    lose: Callable[[int], bool] | None = None
+    input_delay: int = 0
+    exact_inputs: bool = False
+    check_snapshots: bool = False
+    study: Path | None = None
+
+    def __post_init__(self) -> None:
+        if self.name is not None:
+            check_name("client", self.name)
+        if self.bot is not None and self.bot not in BOTS:
+            raise ProtocolError(f"bot {self.bot!r}: there is none of that name, only {', '.join(BOTS)}")
+        if self.bot is not None and self.name is None:
+            raise ProtocolError(f"bot {self.bot!r}: needs a client name to play under")
+        if not 0 <= self.input_delay <= MAX_INPUT_DELAY:
+            raise ProtocolError(
+                f"input delay {self.input_delay}: must be within 0 and {MAX_INPUT_DELAY} ticks"
+            )
