@@ -7,30 +7,36 @@ from collections import deque
 __all__ = ["ViewClock"]
 
 ARRIVALS = 64
-STALL_SECONDS = 3.0
+GAPS = 8
+MOST_GAPS = 2
+MOST_SECONDS = 0.25
 
 
 class ViewClock:
     """Seconds of any monotonic clock in, ticks out; `rate`: the server's ticks per second.
 
-    The earliest of the last arrivals sets the pace, since delay only ever adds. A view acts on nothing, so it
-    has no use for running ahead of the stream as a player does. Never goes back, and stops after a while
-    without news.
+    The earliest of the last arrivals sets the phase, since delay only ever adds. A view acts on nothing, so it
+    has no use for running ahead of the stream as a player does. It goes no further beyond the newest tick than
+    twice the ticks that lie between two pieces of news, or a quarter of a second: a server that cannot keep its
+    rate is followed at the rate it has. Never goes back.
     """
 
     def __init__(self, *, rate: float, tick: int, now: float) -> None:
         self._rate = rate
         self._origins: deque[float] = deque([now - tick / rate], maxlen=ARRIVALS)
-        self._heard_at = now
+        self._gaps: deque[int] = deque([0], maxlen=GAPS)
+        self._newest = tick
         self._last = float(tick)
 
     def heard(self, tick: int, now: float) -> None:
         """Something of state(`tick`), which was new, came just now."""
         self._origins.append(now - tick / self._rate)
-        self._heard_at = now
+        self._gaps.append(tick - self._newest)
+        self._newest = tick
 
     def target(self, now: float) -> float:
         """The tick to show, fraction included."""
-        until = min(now, self._heard_at + STALL_SECONDS)
-        self._last = max(self._last, (until - min(self._origins)) * self._rate)
+        beyond = max(MOST_GAPS * max(self._gaps), MOST_SECONDS * self._rate)
+        wanted = min((now - min(self._origins)) * self._rate, self._newest + beyond)
+        self._last = max(self._last, wanted)
         return self._last

@@ -105,7 +105,6 @@ class Watch:
             key(pace, path),
             congestion_control=zenoh.CongestionControl.DROP,
             priority=zenoh.Priority.DATA,
-            reliability=zenoh.Reliability.BEST_EFFORT,
         )
         return _Node(number, path, publisher)
 

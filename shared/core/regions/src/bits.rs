@@ -4,17 +4,28 @@ use crate::Error;
 
 /// Bits of one number, at the most.
 pub(crate) const MOST_BITS: u32 = 64;
+const HALF_BITS: u32 = 32;
+const HALF_MASK: u64 = (1 << HALF_BITS) - 1;
 
 /// Appends `width` bits of each number, and fills up the last byte with zeros.
 pub(crate) fn write_bits(out: &mut Vec<u8>, numbers: impl Iterator<Item = u64>, width: u32) {
-    let (mut waiting, mut count) = (0u128, 0);
-    for number in numbers {
-        waiting |= u128::from(number) << count;
+    let (mut waiting, mut count) = (0u64, 0);
+    let mut write = |number: u64, width: u32| {
+        waiting |= number << count;
         count += width;
         while count >= 8 {
             out.push(waiting as u8);
             waiting >>= 8;
             count -= 8;
+        }
+    };
+    for number in numbers {
+        if width <= HALF_BITS {
+            write(number, width);
+        } else {
+            // Fewer than eight bits wait, so a half always fits beside them.
+            write(number & HALF_MASK, HALF_BITS);
+            write(number >> HALF_BITS, width - HALF_BITS);
         }
     }
     if count > 0 {

@@ -3,14 +3,17 @@
 use crate::Error;
 use crate::bits::{Reader, width, write_bits, write_signed};
 
-/// Numbers beyond this, in either direction, are not told: below it every whole number is an f64.
+/// Below it, in either direction, every whole number is an f64.
 pub(crate) const FARTHEST: f64 = (1u64 << 52) as f64;
 const MOST_WIDTH: u32 = 54;
 
-/// The whole number of steps that comes nearest, if it is not too far away to be told.
-pub(crate) fn steps(value: f64, step: f64) -> Option<i64> {
-    let steps = (value / step).round();
-    (steps.abs() <= FARTHEST).then_some(steps as i64)
+/// Added and taken away again, it leaves the nearest whole number of those up to [`FARTHEST`] / 2.
+const WHOLE: f64 = 1.5 * FARTHEST;
+
+/// The whole number of steps that comes nearest, if it is not too far away to be told. `inverse` is steps per unit.
+pub(crate) fn steps(value: f64, inverse: f64) -> Option<i64> {
+    let steps = value * inverse;
+    (steps.abs() <= 0.5 * FARTHEST).then_some(((steps + WHOLE) - WHOLE) as i64)
 }
 
 pub(crate) fn write_column(out: &mut Vec<u8>, numbers: &[i64]) {

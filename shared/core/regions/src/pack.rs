@@ -19,7 +19,7 @@ use crate::columns::{steps, write_column};
 use crate::{Grid, Quanta, Shape, Shapes};
 
 /// Packs the balls at `indices`, whose ids ascend. Also says how many were left out: those that are further away, or
-/// faster, than 2^52 steps.
+/// faster, than 2^51 steps.
 #[must_use]
 pub fn pack(
     grid: &Grid,
@@ -31,14 +31,20 @@ pub fn pack(
     let mut columns: [Vec<i64>; 4] = Default::default();
     let (mut ids, mut told): (Vec<u64>, Vec<Shape>) = Default::default();
     let origin = grid.origin();
+    let (per_metre, per_speed) = (1.0 / quanta.position, 1.0 / quanta.velocity);
+    ids.reserve(indices.len());
+    told.reserve(indices.len());
+    for column in &mut columns {
+        column.reserve(indices.len());
+    }
     for &index in indices {
         let index = index as usize;
         let (position, velocity) = (balls.position[index] - origin, balls.velocity[index]);
         let numbers = [
-            steps(position.x, quanta.position),
-            steps(position.y, quanta.position),
-            steps(velocity.x, quanta.velocity),
-            steps(velocity.y, quanta.velocity),
+            steps(position.x, per_metre),
+            steps(position.y, per_metre),
+            steps(velocity.x, per_speed),
+            steps(velocity.y, per_speed),
         ];
         let [Some(x), Some(y), Some(vx), Some(vy)] = numbers else {
             continue;

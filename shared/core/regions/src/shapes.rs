@@ -49,6 +49,15 @@ impl Shapes {
     /// As one place for all, a place for each, or each in its own way: by its place, as a radius rounded to f32 from which
     /// the mass follows, or as numbers.
     pub(crate) fn write(&self, out: &mut Vec<u8>, shapes: &[Shape]) {
+        if let (&[only], Some(&first)) = (&self.listed[..], shapes.first())
+            && shapes.iter().all(|&shape| shape == first)
+            && only == first
+        {
+            // The one case that is common in large worlds needs no look into the table.
+            out.push(ONE);
+            write_varint(out, 0);
+            return;
+        }
         let place = |&(r, m): &Shape| self.places.get(&(r.to_bits(), m.to_bits())).copied();
         let places: Vec<Option<u64>> = shapes.iter().map(place).collect();
         let known = || places.iter().flatten().copied();
