@@ -119,7 +119,7 @@ class Client:
         self.screen.feel.acted(mine.sequence, tick, now)
 
     def turn(self, now: float) -> float:
-        """Take in what came, predict up to now, send.
+        """Take in what came, predict up to now, send. `frame` is to be called for each frame that is drawn of it.
 
         Returns how far the drawn state is from one tick to the next.
         """

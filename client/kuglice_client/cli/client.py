@@ -87,7 +87,9 @@ def client(
     ] = False,
     study: Annotated[
         Path | None,
-        typer.Option(help="Record what is seen, acted and confirmed, for `kuglice study`."),
+        typer.Option(
+            help="Record what is seen, acted and confirmed, for `kuglice study`: up to 1 GB an hour."
+        ),
     ] = None,
     summary_json: Annotated[
         Path | None, typer.Option(help="Write the closing figures to this file too.")
