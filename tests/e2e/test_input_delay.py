@@ -26,7 +26,8 @@ def test_an_input_acts_so_many_ticks_later(server, endpoint, tmp_path):
         reached = client.prediction.world.tick
         client.act(Kick(vx=0.0, vy=3.0))
         due = math.floor(client.clock.target(time.monotonic()))
-        playing(lambda: client.outbox.accepted == 1)
+        # Told that it will act as soon as it has come, she waits until it has.
+        playing(lambda: client.outbox.accepted == 1 and client.confirmed.tick > due + 3 * DELAY)
         late = client.outbox.late
     server.signal(2)
     server.figures()
