@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import math
+import secrets
 import threading
 import time
 from collections.abc import Callable, Iterable
@@ -51,6 +52,7 @@ PREDICT_SECONDS = 0.012
 """Of one turn: running forward again that takes longer goes on in the next, and frames come in between."""
 SNAPSHOT_BYTES_PER_BALL = 64
 KNOWN_EPOCHS = 64
+SESSION_BYTES = 8
 
 
 class Client:
@@ -64,6 +66,8 @@ class Client:
         self.totals = Totals()
         self.screen = Screen()
         self._study: StudyRecorder | None = None
+        # Tells us from another who takes the same name; whoever is cut off and comes back is the same still.
+        self._session = secrets.token_hex(SESSION_BYTES)
         self.link = Link(settings.connect, deadline=deadline, stop=self.stop)
         self._datagrams = DatagramWatch(self.link, settings.connect)
         try:
@@ -73,7 +77,7 @@ class Client:
             # First the stream, then the rest: what happens while we join is in its buffer.
             self.link.listen(self._keys, snapshots=settings.check_snapshots)
             if settings.name is not None:
-                self.link.show(settings.name)
+                self.link.show(settings.name, self._session)
             self._other_epochs: set[int] = set()
             self._enter(self._join(deadline))
         except BaseException:
@@ -204,7 +208,8 @@ class Client:
         self.close()
 
     def _join(self, deadline: float) -> Joined:
-        return join(self.link, self._keys, self.settings.name, deadline=deadline, stop=self.stop)
+        who = None if self.settings.name is None else (self.settings.name, self._session)
+        return join(self.link, self._keys, who, deadline=deadline, stop=self.stop)
 
     def _enter(self, joined: Joined) -> None:
         """Begin in a world that was just joined, for the first time or after a restart of the server."""

@@ -22,6 +22,9 @@ log = logging.getLogger(__name__)
 
 RETRY_SECONDS = 0.03
 
+Who = tuple[str, str]
+"""Name and session."""
+
 
 @dataclass(frozen=True)
 class Joined:
@@ -57,19 +60,19 @@ def find_world(link: Link, *, deadline: float, stop: threading.Event) -> str:
 def join(
     link: Link,
     keys: Keys,
-    name: str | None,
+    who: Who | None,
     *,
     deadline: float,
     stop: threading.Event,
 ) -> Joined:
-    """Join as the client `name`, whose liveliness token is declared already, or as a spectator (None).
+    """Join as the client `who`, whose liveliness token is declared already, or as a spectator (None).
 
     Raises JoinError at the deadline, when refused, or when this build would step to other bits than the
     server.
     """
     while True:
         try:
-            return _attempt(link, keys, name, deadline=deadline, stop=stop)
+            return _attempt(link, keys, who, deadline=deadline, stop=stop)
         except _NotYetError as error:
             log.debug("not yet: %s", error)
             _pause(deadline, stop, why=str(error))
@@ -82,7 +85,7 @@ class _NotYetError(JoinError):
 def _attempt(
     link: Link,
     keys: Keys,
-    name: str | None,
+    who: Who | None,
     *,
     deadline: float,
     stop: threading.Event,
@@ -101,8 +104,8 @@ def _attempt(
             f"{_core.STEP_VERSION} and would compute other bits"
         )
     number, sequence = None, 0
-    if name is not None:
-        number, sequence = _number(link, keys, name, deadline=deadline, stop=stop)
+    if who is not None:
+        number, sequence = _number(link, keys, who, deadline=deadline, stop=stop)
     try:
         asked_at = time.monotonic()
         snapshot = link.ask(keys.history, SnapshotRequest(epoch=about.epoch, at=None)).wait_whole(stop)
@@ -122,22 +125,27 @@ def _attempt(
 def _number(
     link: Link,
     keys: Keys,
-    name: str,
+    who: Who,
     *,
     deadline: float,
     stop: threading.Event,
 ) -> tuple[int, int]:
+    name, session = who
     while True:
         try:
             status = decode(link.ask(keys.status, None).wait(stop)[0], Status)
         except (JoinError, ProtocolError) as error:
             raise _NotYetError(str(error)) from error
-        mine = status.clients.get(name)
-        if mine is not None and mine.refusal is not None:
-            raise JoinError(f"client {name}: {mine.refusal}")
-        if mine is not None:
-            return mine.number, mine.sequence
-        _pause(deadline, stop, why=f"client {name}: the server has not let it in")
+        for refusal in status.refusals:
+            if (refusal.name, refusal.session) == who:
+                raise JoinError(f"client {name}: {refusal.reason}")
+        here = status.clients.get(name)
+        if here is not None and here.session == session:
+            return here.number, here.sequence
+        why = "the server has not let it in"
+        if here is not None and here.away:
+            why = "another session plays it, whose link is cut: the server still waits for that one"
+        _pause(deadline, stop, why=f"client {name}: {why}")
 
 
 def _pause(deadline: float, stop: threading.Event, why: str = "no world is served here") -> None:

@@ -66,10 +66,10 @@ class Link:
                 SNAPSHOT_RING,
             )
 
-    def show(self, name: str) -> None:
-        """Let the server know that the client `name` is here, for as long as this process lives."""
+    def show(self, name: str, session: str) -> None:
+        """Let the server know that this session of the client `name` is here, until it is closed or dies."""
         self._input = self.session.declare_publisher(
-            self._keys.input(name),
+            self._keys.input(name, session),
             congestion_control=zenoh.CongestionControl.DROP,
             priority=zenoh.Priority.INTERACTIVE_HIGH,
             express=True,
@@ -77,7 +77,8 @@ class Link:
             allowed_destination=zenoh.Locality.REMOTE,
         )
         self._declared.append(self._input)
-        self._declared.append(self.session.liveliness().declare_token(self._keys.client(name)))
+        token = self.session.liveliness().declare_token(self._keys.client(name, session))
+        self._declared += [token, _Goodbye(self.session, self._keys.input(name, session))]
 
     def make_room(self, parts: int) -> None:
         """Hold at least that many parts of snapshots: fewer than one has, and none would ever be whole."""
@@ -132,6 +133,21 @@ class Link:
                     log.warning("%s (further ones are only counted)", error)
                 continue
             yield message
+
+
+class _Goodbye:
+    """Says, as the first thing that is undeclared, that the rest is no cut."""
+
+    def __init__(self, session: zenoh.Session, key: str) -> None:
+        self._session = session
+        self._key = key
+
+    def undeclare(self) -> None:
+        self._session.delete(
+            self._key,
+            congestion_control=zenoh.CongestionControl.BLOCK,
+            allowed_destination=zenoh.Locality.REMOTE,
+        )
 
 
 def _connected(connect: tuple[str, ...], deadline: float, stop: threading.Event) -> zenoh.Session:

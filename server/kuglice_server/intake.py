@@ -14,7 +14,8 @@ Every input has a defined answer:
 - more than `limits.per_tick` in one tick: the rest waits for the next, in order;
 - malformed: a message that cannot be read is refused as a whole, with the reason, under no sequence number;
 - a flood: beyond MESSAGES_PER_TICK messages a tick, counted and not read; what was lost is sent again;
-- foreign (from nobody who is here), or meant for another epoch: counted, not answered, since nobody would hear it.
+- foreign (from nobody who is here, or from a session that does not play its name), or meant for another epoch:
+  counted, not answered, since nobody would hear it.
 """
 
 from __future__ import annotations
@@ -64,11 +65,11 @@ class Intake:
     def receive(self, key: str, payload: bytes, *, world: World) -> None:
         """One message from the wire; `world` is the state that its tick will begin with. Raises nothing."""
         try:
-            name = Keys.client_of(key)
+            name, session = Keys.client_of(key)
         except ProtocolError:
             self._counters["foreign"] += 1
             return
-        player = self._players.find(name)
+        player = self._players.find(name, session)
         if player is None:
             self._counters["foreign"] += 1
             return

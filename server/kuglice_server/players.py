@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from kuglice import Scene, World
 from kuglice.errors import InputError
 from kuglice.inputs import Input, Leave, join
-from kuglice.protocol import Ack, ClientStatus
+from kuglice.protocol import Ack, ClientStatus, SessionRefusal
 
 __all__ = ["Player", "Players"]
 
@@ -21,17 +21,23 @@ MAX_NAMES = 4096
 """Names remembered after their clients left; the longest gone are forgotten first."""
 REMEMBERED_OUTCOMES = 256
 
+Waiting = tuple[str, str]
+"""Name and session."""
+
 
 @dataclass
 class Player:
     """A name and what is known of it. It keeps number and sequence when it leaves and comes back.
 
+    `session`: the one that plays it. `away_since`: the tick at which its token vanished, None while it is there.
     `heard`: the first tick that it misses, as far as it has said.
     """
 
     name: str
     number: int
     present: bool = False
+    session: str = ""
+    away_since: int | None = None
     sequence: int = 0
     accepted: int = 0
     late: int = 0
@@ -48,20 +54,25 @@ class Player:
 
 
 class Players:
-    """Clients of one world. Not for two threads at once: the owner locks."""
+    """Clients of one world. Not for two threads at once: the owner locks.
 
-    def __init__(self, scene: Scene) -> None:
+    A name is played by one session at a time: the first one that came. `grace`: ticks for which a player whose token
+    vanished is still here, ball and all, so that the same session goes on with it once its link is back.
+    """
+
+    def __init__(self, scene: Scene, *, grace: int) -> None:
         self._scene = scene
+        self._grace = grace
         self._by_name: OrderedDict[str, Player] = OrderedDict()
-        self._waiting: dict[str, None] = {}
-        self._refused: dict[str, str] = {}
+        self._waiting: dict[Waiting, None] = {}
+        self._refused: dict[Waiting, str] = {}
         self._leaves: list[Input] = []
         self._numbers = 0
         self._sequence = 0
 
     @property
     def present(self) -> list[Player]:
-        """Those who are here, by number."""
+        """Those who are here, and those whose return is waited for, by number."""
         return sorted(
             (player for player in self._by_name.values() if player.present), key=lambda one: one.number
         )
@@ -80,53 +91,84 @@ class Players:
             and not any(one.present for one in self._by_name.values())
         )
 
-    def find(self, name: str) -> Player | None:
-        """The player of that name, if it is here."""
+    def find(self, name: str, session: str) -> Player | None:
+        """The player of that name, if it is here and this session is the one that plays it."""
         player = self._by_name.get(name)
-        return player if player is not None and player.present else None
+        return player if player is not None and player.present and player.session == session else None
 
     def numbered(self, number: int) -> Player | None:
         """The player of that number, here or not."""
         return next((player for player in self._by_name.values() if player.number == number), None)
 
-    def arrive(self, name: str) -> None:
-        """A token appeared."""
-        if self.find(name) is None and len(self._waiting) < MAX_NAMES:
-            self._waiting[name] = None
-
-    def depart(self, name: str) -> None:
-        """A token disappeared."""
-        self._waiting.pop(name, None)
-        self._refused.pop(name, None)
-        player = self.find(name)
+    def arrive(self, name: str, session: str) -> None:
+        """A token appeared: somebody new, or one whose link is back."""
+        player = self.find(name, session)
         if player is None:
-            return
-        player.present = False
-        self._leaves.append(Leave(client=player.number, sequence=self._next_sequence()))
-        log.info("%s (client %d) leaves", name, player.number)
+            if len(self._waiting) < MAX_NAMES:
+                self._waiting[name, session] = None
+        elif player.away_since is not None:
+            player.away_since = None
+            log.info("%s (client %d) is back", name, player.number)
+
+    def depart(self, name: str, session: str, tick: int) -> None:
+        """A token disappeared: its link is cut, or its process has ended. It has `grace` ticks to come back."""
+        self._waiting.pop((name, session), None)
+        self._refused.pop((name, session), None)
+        player = self.find(name, session)
+        if player is not None and player.away_since is None:
+            player.away_since = tick
+            log.info("%s (client %d) is away", name, player.number)
+
+    def leave(self, name: str, session: str) -> None:
+        """It said that it goes, and need not be waited for."""
+        self._waiting.pop((name, session), None)
+        player = self.find(name, session)
+        if player is not None:
+            self._dismiss(player)
 
     def authored(self, world: World) -> list[Input]:
-        """Leaves since the last call, and the join of one who waits.
+        """Leaves since the last call, of those away for too long too, and the join of one who waits.
 
         One per tick, since the next one's spawn point depends on where this one's ball is.
         """
+        for player in self.present:
+            if player.away_since is not None and world.tick - player.away_since >= self._grace:
+                self._dismiss(player)
         authored, self._leaves = self._leaves, []
-        if self._waiting and not authored:
-            name = next(iter(self._waiting))
-            del self._waiting[name]
+        waiting = None if authored else self._next_waiting()
+        if waiting is not None:
+            name, session = waiting
             try:
-                authored.append(self._admit(name, world))
+                authored.append(self._admit(name, session, world))
             except InputError as error:
                 log.warning("%s is refused: %s", name, error)
                 if len(self._refused) < MAX_NAMES:
-                    self._refused[name] = str(error)[:400]
+                    self._refused[waiting] = str(error)[:400]
         return authored
 
+    def _next_waiting(self) -> Waiting | None:
+        """The first of those who need wait no longer, taken from the queue."""
+        for waiting in self._waiting:
+            holder = self._by_name.get(waiting[0])
+            if holder is not None and holder.present and holder.away_since is not None:
+                # Perhaps the same person at a new start: until the old session is given up.
+                continue
+            del self._waiting[waiting]
+            return waiting
+        return None
+
+    def _dismiss(self, player: Player) -> None:
+        player.present, player.away_since = False, None
+        self._leaves.append(Leave(client=player.number, sequence=self._next_sequence()))
+        log.info("%s (client %d) leaves", player.name, player.number)
+
     def status(self) -> dict[str, ClientStatus]:
-        """Everyone who is here or was refused, by name."""
-        here = {
+        """Everyone who is here, by name."""
+        return {
             player.name: ClientStatus(
                 number=player.number,
+                session=player.session,
+                away=player.away_since is not None,
                 sequence=player.sequence,
                 accepted=player.accepted,
                 late=player.late,
@@ -134,15 +176,19 @@ class Players:
             )
             for player in self.present
         }
-        refused = {
-            name: ClientStatus(number=0, sequence=0, accepted=0, late=0, refused=0, refusal=reason)
-            for name, reason in self._refused.items()
-        }
-        return here | refused
 
-    def _admit(self, name: str, world: World) -> Input:
+    def refusals(self) -> list[SessionRefusal]:
+        """The sessions that were not let in, and why."""
+        return [
+            SessionRefusal(name=name, session=session, reason=reason)
+            for (name, session), reason in self._refused.items()
+        ]
+
+    def _admit(self, name: str, session: str, world: World) -> Input:
         known = self._by_name.get(name)
         number = known.number if known is not None else self._numbers + 1
+        if known is not None and known.present:
+            raise InputError(f"join: {name} is played by another session already, at most 1 allowed")
         here = len(self.present)
         if here >= MAX_PLAYERS:
             raise InputError(f"join: client {number} refused at {here} players, at most {MAX_PLAYERS}")
@@ -152,7 +198,7 @@ class Players:
             known = self._by_name[name] = Player(name, number)
             self._forget()
         self._by_name.move_to_end(name)
-        known.present = True
+        known.present, known.session, known.away_since = True, session, None
         known.heard = None
         log.info("%s joins as client %d", name, number)
         return joined

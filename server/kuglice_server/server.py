@@ -44,6 +44,7 @@ log = logging.getLogger(__name__)
 
 HISTORY_SECONDS = 60
 EARLIEST_SECONDS = 2
+MAX_GRACE = 3600.0
 WAITING_MESSAGES = 4096
 EPOCH_ORIGIN = 1_767_225_600 * 10**9
 """The begin of 2026, in nanoseconds."""
@@ -58,7 +59,8 @@ class ServerSettings:
 
     `rate`: ticks per second of wall clock (None: the scene's). `snapshot_every`: ticks between published
     snapshots (None: a second's worth). `hash_every`: ticks between states whose hash is told (None: every one,
-    or one per second where that would cost too much). `region_rate`: times per second that views are told of what they
+    or one per second where that would cost too much). `grace`: seconds for which a player whose link was cut
+    keeps its ball. `region_rate`: times per second that views are told of what they
     look at. `threads`: how many share the work of a step. `insecure`:
     listen on addresses that others can reach, although there are no accounts and no encryption yet.
     """
@@ -71,6 +73,7 @@ class ServerSettings:
     hash_every: int | None = None
     region_rate: float = 10.0
     record: Path | None = None
+    grace: float = 10.0
     threads: int = 1
     insecure: bool = False
 
@@ -87,6 +90,8 @@ class ServerSettings:
             raise ProtocolError(
                 f"region-rate {self.region_rate}: must be above 0 and at most 1000 times per second"
             )
+        if not 0 <= self.grace <= MAX_GRACE:
+            raise ProtocolError(f"grace {self.grace}: must be at least 0 and at most {MAX_GRACE:g} seconds")
         if self.rate is not None and not 0 < self.rate <= 10_000:
             raise ProtocolError(f"rate {self.rate}: must be above 0 and at most 10000 ticks per second")
 
@@ -107,7 +112,7 @@ class Server:
         self._scene = scene
         self._scene_message = scene.to_message()
         self._lock = threading.Lock()
-        self._players = Players(scene)
+        self._players = Players(scene, grace=round(settings.grace * self.rate))
         intake = Intake(
             scene,
             self._players,
@@ -245,6 +250,7 @@ class Server:
                 rate=self.rate,
                 balls=self._balls,
                 clients=self._players.status(),
+                refusals=self._players.refusals(),
                 counters={**self.counters, "late ticks": self._schedule.late_ticks},
                 seconds_lost=self._schedule.seconds_lost,
                 worst_lateness=self._schedule.worst_lateness,

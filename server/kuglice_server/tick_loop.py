@@ -68,8 +68,9 @@ class TickLoop:
         world = self._world
         number = world.tick
         with self._lock:
-            self._note_tokens()
+            # Inputs first: a goodbye is among them, and comes before the token that vanishes with it.
             self._take_inputs()
+            self._note_tokens()
             authored = self._players.authored(world)
             inputs = self._with_room(authored, self._intake.due(number))
             heard = self._players.heard
@@ -90,21 +91,30 @@ class TickLoop:
     def _note_tokens(self) -> None:
         while (sample := self._tokens.try_recv()) is not None:
             try:
-                name = Keys.client_of(str(sample.key_expr))
+                who = Keys.client_of(str(sample.key_expr))
             except ProtocolError:
                 self._counters["foreign"] += 1
                 continue
             if sample.kind == zenoh.SampleKind.PUT:
-                self._players.arrive(name)
+                self._players.arrive(*who)
             else:
-                self._players.depart(name)
+                self._players.depart(*who, self._world.tick)
 
     def _take_inputs(self) -> None:
         while (sample := self._inputs.try_recv()) is not None:
             data = sample.payload.to_bytes()
             self._counters["messages in"] += 1
             self._counters["bytes in"] += len(data)
-            self._intake.receive(str(sample.key_expr), data, world=self._world)
+            if sample.kind == zenoh.SampleKind.DELETE:
+                self._say_goodbye(str(sample.key_expr))
+            else:
+                self._intake.receive(str(sample.key_expr), data, world=self._world)
+
+    def _say_goodbye(self, key: str) -> None:
+        try:
+            self._players.leave(*Keys.client_of(key))
+        except ProtocolError:
+            self._counters["foreign"] += 1
 
     def _with_room(self, authored: list[Input], inputs: list[Input]) -> list[Input]:
         inputs = _ordered(inputs)

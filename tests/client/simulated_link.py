@@ -61,11 +61,11 @@ class Simulation:
         server_lag: Callable[[int], float] = lambda _: 0.0,
     ) -> None:
         scene = small_arena()
-        players = Players(scene)
+        players = Players(scene, grace=300)
         self._intake = Intake(scene, players, epoch=EPOCH, horizon=120, counters=Counter())
         self._world = World(scene)
         self._players = players
-        players.arrive("ana")
+        players.arrive("ana", "s1")
         self._ticks: list[StretchedTick] = []
         self._up, self._down = Line(conditions, 0), Line(conditions, 1)
         self._stream, self._every, self._input_delay = stream, every, input_delay
@@ -157,9 +157,9 @@ class Simulation:
         self._at(now + TURN_SECONDS, self._turn)
 
     def _receive(self, data: bytes) -> None:
-        player = self._players.find("ana")
+        player = self._players.find("ana", "s1")
         known = 0 if player is None else player.sequence
-        self._intake.receive(Keys("small").input("ana"), data, world=self._world)
+        self._intake.receive(Keys("small").input("ana", "s1"), data, world=self._world)
         for sent in decode(data, ClientInputs).inputs:
             if sent.given.sequence > known:
                 self.played.early.append(sent.tick - self._world.tick)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import secrets
 import time
 from typing import Any, Self
 
@@ -31,6 +32,7 @@ class RawClient:
     def __init__(self, endpoint: str, world: str, name: str | None) -> None:
         self.keys = Keys(world)
         self.name = name
+        self.session_id = secrets.token_hex(8)
         deadline = time.monotonic() + 20
         while True:
             try:
@@ -46,7 +48,9 @@ class RawClient:
         self.tick = -1
         until(self.status, what="status")
         if name is not None:
-            self._declared.append(self.session.liveliness().declare_token(self.keys.client(name)))
+            self._declared.append(
+                self.session.liveliness().declare_token(self.keys.client(name, self.session_id))
+            )
             until(lambda: name in self.status().clients, what=f"{name} is let in")
 
     def __enter__(self) -> Self:
@@ -80,8 +84,8 @@ class RawClient:
         """Out to the others only: what one puts oneself would come back to one's own subscriber."""
         self.session.put(key, payload, allowed_destination=zenoh.Locality.REMOTE)
 
-    def raw(self, payload: bytes, name: str | None = None) -> None:
-        self.put(self.keys.input(name or self.name), payload)
+    def raw(self, payload: bytes, name: str | None = None, session: str | None = None) -> None:
+        self.put(self.keys.input(name or self.name, session or self.session_id), payload)
 
     def send(
         self, *wanted: tuple[int, int, Input], epoch: int | None = None, name: str | None = None

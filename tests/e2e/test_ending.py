@@ -71,13 +71,51 @@ def test_the_summary_file_holds_what_is_printed(server, start, endpoint, tmp_pat
     assert player.figures() == json.loads(path.read_text())
 
 
+def test_a_second_session_under_a_name_that_plays_is_refused_in_words(server, start, endpoint, tmp_path):
+    first = start("client", "--connect", endpoint, "--name", "ana", "--bot", "chaser", "--json")
+    until(lambda: "joined world" in first.err, what="ana joins")
+    second = start("client", "--connect", endpoint, "--name", "ana", "--bot", "herder", "--json")
+    assert second.wait() == 2
+    assert "client ana: join: ana is played by another session already" in second.err
+    reached = len(Replay.load(tmp_path / "run.kuglice"))
+    until(lambda: len(Replay.load(tmp_path / "run.kuglice")) > reached + 60, what="the first plays on")
+    first.signal(signal.SIGINT)
+    figures = first.figures()
+    server.signal(signal.SIGINT)
+    server.figures()
+    assert server.err.count("ana joins") == 1
+    assert figures["inputs_refused"] == 0
+    assert_all_equal(tmp_path / "run.kuglice", [figures])
+
+
+def test_a_client_started_again_after_a_crash_waits_for_its_own_end_and_plays_on(
+    start, scene, endpoint, tmp_path
+):
+    server = start("server", scene, "--listen", endpoint, "--grace", 1)
+    first = start("client", "--connect", endpoint, "--name", "ana", "--json")
+    until(lambda: "joined world" in first.err, what="ana joins")
+    first.kill()
+    until(lambda: "is away" in server.err, what="ana is missed")
+    again = start("client", "--connect", endpoint, "--name", "ana", "--seconds", 1, "--wait", 20, "--json")
+    figures = again.figures()
+    assert (figures["number"], figures["agreed"]) == (1, True)
+    assert server.err.count("ana joins as client 1") == 2
+
+
+def test_one_who_leaves_in_order_is_not_waited_for(start, scene, endpoint):
+    server = start("server", scene, "--listen", endpoint, "--grace", 3600)
+    player = start("client", "--connect", endpoint, "--name", "ana", "--seconds", 1, "--json")
+    player.figures()
+    until(lambda: "ana (client 1) leaves" in server.err, what="ana leaves")
+
+
 def test_a_client_that_freezes_is_missed_and_may_come_back(server, start, endpoint, tmp_path):
     player = start("client", "--connect", endpoint, "--name", "ana", "--bot", "chaser", "--json")
     until(lambda: "ana joins as client 1" in server.err, what="ana joins")
     player.signal(signal.SIGSTOP)
-    until(lambda: "ana (client 1) leaves" in server.err, what="ana is missed")
+    until(lambda: "ana (client 1) is away" in server.err, what="ana is missed")
     player.signal(signal.SIGCONT)
-    until(lambda: server.err.count("ana joins as client 1") == 2, what="ana is back")
+    until(lambda: "ana (client 1) is back" in server.err, what="ana is back")
     reached = Replay.load(tmp_path / "run.kuglice")
     until(lambda: len(Replay.load(tmp_path / "run.kuglice")) > len(reached) + 90, what="she plays on")
     player.signal(signal.SIGINT)

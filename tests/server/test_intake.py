@@ -23,6 +23,7 @@ EPOCH = 77
 HORIZON = 50
 REPEAT = 6
 KEYS = Keys("small")
+SESSION = "s1"
 
 
 class Desk:
@@ -31,13 +32,13 @@ class Desk:
     def __init__(self, per_tick: int = 4) -> None:
         scene = small_arena(per_tick=per_tick)
         self.world = World(scene)
-        players = Players(scene)
+        players = Players(scene, grace=300)
         self.counters: Counter[str] = Counter()
         self.told: list[Ack] = []
         self.intake = Intake(scene, players, epoch=EPOCH, horizon=HORIZON, counters=self.counters)
-        players.arrive("ana")
+        players.arrive("ana", SESSION)
         self.world.step(players.authored(self.world))
-        self.player = players.find("ana")
+        self.player = players.find("ana", SESSION)
 
     def send(self, *wanted: tuple[int, int, Input], name: str = "ana", epoch: int = EPOCH) -> list:
         """(sequence, tick, input) each, in one message; the outcomes that are news."""
@@ -46,10 +47,10 @@ class Desk:
         ]
         return self.raw(encode(ClientInputs(epoch=epoch, heard=self.world.tick, inputs=sent)), name=name)
 
-    def raw(self, payload: bytes, name: str = "ana") -> list:
+    def raw(self, payload: bytes, name: str = "ana", session: str = SESSION) -> list:
         """What is news afterwards: outcomes that are told, and those that will be when their tick comes."""
         known = [*self.told, *self.player.outcomes.values()]
-        self.intake.receive(KEYS.input(name), payload, world=self.world)
+        self.intake.receive(KEYS.input(name, session), payload, world=self.world)
         news = [ack for ack in self.tell() if ack not in known]
         return news + [ack for ack in self.player.outcomes.values() if ack not in (*known, *news)]
 
@@ -177,8 +178,16 @@ def test_garbage_of_someone_who_is_here_is_answered(desk):
 
 def test_from_nobody_who_is_here_it_is_counted(desk):
     assert desk.send((1, 2, Thrust(x=1, y=0)), name="eve") == []
-    desk.intake.receive("kuglice/small/input/not a name", b"x", world=desk.world)
-    assert desk.counters["foreign"] == 2
+    desk.intake.receive("kuglice/small/input/not a name/s1", b"x", world=desk.world)
+    desk.intake.receive("kuglice/small/input/ana", b"x", world=desk.world)
+    assert desk.counters["foreign"] == 3
+
+
+def test_from_another_session_of_a_name_that_plays_it_is_counted(desk):
+    payload = encode(ClientInputs(epoch=EPOCH, heard=0, inputs=[SentInput(2, Thrust(x=1, y=0, sequence=1))]))
+    assert desk.raw(payload, session="s2") == []
+    assert desk.counters == {"foreign": 1}
+    assert [desk.step() for _ in range(3)] == [[], [], []]
 
 
 def test_of_another_epoch_it_is_counted(desk):

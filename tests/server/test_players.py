@@ -9,6 +9,8 @@ from kuglice.inputs import Join, Leave
 from kuglice_server.players import Players
 from server.small_arena import small_arena
 
+GRACE = 30
+
 
 @pytest.fixture
 def world():
@@ -17,7 +19,7 @@ def world():
 
 @pytest.fixture
 def players():
-    return Players(small_arena())
+    return Players(small_arena(), grace=GRACE)
 
 
 def turn(players: Players, world: World) -> list:
@@ -29,7 +31,7 @@ def turn(players: Players, world: World) -> list:
 
 def test_everyone_gets_a_number_and_a_ball_of_their_own(players, world):
     for name in ("ana", "bob"):
-        players.arrive(name)
+        players.arrive(name, "s1")
     joins = turn(players, world) + turn(players, world)
     assert [type(one) for one in joins] == [Join, Join]
     assert {(one.x, one.y) for one in joins} == {(1.0, 1.0), (19.0, 9.0)}
@@ -38,17 +40,17 @@ def test_everyone_gets_a_number_and_a_ball_of_their_own(players, world):
 
 
 def test_a_token_seen_twice_joins_once(players, world):
-    players.arrive("ana")
+    players.arrive("ana", "s1")
     turn(players, world)
-    players.arrive("ana")
+    players.arrive("ana", "s1")
     assert turn(players, world) == []
 
 
 def test_leaving_takes_the_ball_along(players, world):
-    players.arrive("ana")
+    players.arrive("ana", "s1")
     turn(players, world)
     balls = world.count
-    players.depart("ana")
+    players.leave("ana", "s1")
     assert [type(one) for one in turn(players, world)] == [Leave]
     assert world.count == balls - 1
     assert world.players == []
@@ -56,50 +58,131 @@ def test_leaving_takes_the_ball_along(players, world):
 
 def test_a_name_that_returns_keeps_number_and_sequence(players, world):
     for name in ("ana", "bob"):
-        players.arrive(name)
+        players.arrive(name, "s1")
         turn(players, world)
-    players.find("ana").sequence = 41
-    players.depart("ana")
+    players.find("ana", "s1").sequence = 41
+    players.leave("ana", "s1")
     turn(players, world)
-    assert players.find("ana") is None
-    players.arrive("ana")
+    assert players.find("ana", "s1") is None
+    players.arrive("ana", "s1")
     turn(players, world)
     assert (players.status()["ana"].number, players.status()["ana"].sequence) == (1, 41)
 
 
 def test_one_too_many_is_told_why_and_may_come_when_there_is_room(players, world):
     for name in ("ana", "bob", "cid"):
-        players.arrive(name)
+        players.arrive(name, "s1")
         turn(players, world)
-    assert "at most 2" in players.status()["cid"].refusal
-    players.depart("ana")
-    players.depart("cid")
+    (refusal,) = players.refusals()
+    assert (refusal.name, refusal.session) == ("cid", "s1")
+    assert "at most 2" in refusal.reason
+    players.leave("ana", "s1")
+    players.depart("cid", "s1", world.tick)
     turn(players, world)
-    players.arrive("cid")
+    players.arrive("cid", "s1")
     turn(players, world)
-    assert players.status()["cid"].refusal is None
-    assert players.find("cid") is not None
+    assert players.refusals() == []
+    assert players.find("cid", "s1") is not None
 
 
 def test_coming_and_going_within_one_tick_leaves_nothing_behind(players, world):
-    players.arrive("ana")
-    players.depart("ana")
+    players.arrive("ana", "s1")
+    players.leave("ana", "s1")
     assert turn(players, world) == []
     assert players.status() == {}
 
 
 def test_everybody_gone_is_not_the_same_as_nobody_yet(players, world):
     assert not players.deserted
-    players.arrive("ana")
+    players.arrive("ana", "s1")
     turn(players, world)
     assert not players.deserted
-    players.depart("ana")
+    players.leave("ana", "s1")
     assert players.deserted
 
 
 def test_players_without_balls_where_the_scene_has_none():
     scene = small_arena().model_copy(update={"players": None})
-    players, world = Players(scene), World(scene)
-    players.arrive("ana")
+    players, world = Players(scene, grace=GRACE), World(scene)
+    players.arrive("ana", "s1")
     turn(players, world)
     assert world.players == [(1, None)]
+
+
+def away(players: Players, world: World, ticks: int) -> list:
+    """What the server writes in that many ticks after ana's token has vanished."""
+    players.depart("ana", "s1", world.tick)
+    return [one for _ in range(ticks) for one in turn(players, world)]
+
+
+def test_one_whose_link_was_cut_keeps_its_ball_and_goes_on_with_it(players, world):
+    players.arrive("ana", "s1")
+    turn(players, world)
+    balls = dict(world.players)
+    assert away(players, world, GRACE) == []
+    assert players.status()["ana"].away
+    assert not players.deserted
+    players.arrive("ana", "s1")
+    assert [turn(players, world) for _ in range(2 * GRACE)] == [[]] * 2 * GRACE
+    assert not players.status()["ana"].away
+    assert dict(world.players) == balls
+
+
+def test_inputs_of_one_who_is_away_are_still_its_own(players, world):
+    players.arrive("ana", "s1")
+    turn(players, world)
+    away(players, world, 3)
+    assert players.find("ana", "s1") is not None
+
+
+def test_one_who_does_not_come_back_in_time_leaves(players, world):
+    players.arrive("ana", "s1")
+    turn(players, world)
+    assert [type(one) for one in away(players, world, GRACE + 1)] == [Leave]
+    assert players.find("ana", "s1") is None
+    players.arrive("ana", "s1")
+    (join,) = turn(players, world)
+    assert join.client == 1
+
+
+def test_a_name_is_played_by_one_session_and_the_second_is_told_why(players, world):
+    players.arrive("ana", "s1")
+    turn(players, world)
+    players.arrive("ana", "s2")
+    assert turn(players, world) == []
+    (refusal,) = players.refusals()
+    assert (refusal.name, refusal.session) == ("ana", "s2")
+    assert "ana is played by another session already, at most 1" in refusal.reason
+    assert players.find("ana", "s2") is None
+    assert players.status()["ana"].session == "s1"
+    # It goes, and the one who plays does not notice.
+    players.depart("ana", "s2", world.tick)
+    players.leave("ana", "s2")
+    assert turn(players, world) == []
+    assert players.refusals() == []
+    assert players.find("ana", "s1") is not None
+
+
+def test_a_new_session_waits_while_the_old_one_may_come_back_and_then_plays_on(players, world):
+    """Of a client that crashed and was started again, say."""
+    players.arrive("ana", "s1")
+    turn(players, world)
+    players.arrive("bob", "s1")
+    turn(players, world)
+    players.depart("ana", "s1", world.tick)
+    players.arrive("ana", "s2")
+    written = [one for _ in range(GRACE + 2) for one in turn(players, world)]
+    assert [(type(one), one.client) for one in written] == [(Leave, 1), (Join, 1)]
+    assert players.refusals() == []
+    assert players.find("ana", "s2") is not None
+    assert players.find("ana", "s1") is None
+
+
+def test_one_who_says_goodbye_is_not_waited_for(players, world):
+    players.arrive("ana", "s1")
+    turn(players, world)
+    players.leave("ana", "s1")
+    assert [type(one) for one in turn(players, world)] == [Leave]
+    # Its token vanishes only now.
+    players.depart("ana", "s1", world.tick)
+    assert away(players, world, GRACE + 1) == []

@@ -62,6 +62,10 @@ def server(
     region_rate: Annotated[
         float, typer.Option(help="Times per second that views are told of the regions they look at.")
     ] = 10.0,
+    grace: Annotated[
+        float,
+        typer.Option(help="Seconds for which a player whose link was cut keeps its ball, to go on with it."),
+    ] = 10.0,
     record: Annotated[Path | None, typer.Option(help="Write a replay file.")] = None,
     threads: Threads = 1,
     seconds: Annotated[
@@ -93,6 +97,7 @@ def server(
         hash_every=hash_every,
         region_rate=region_rate,
         record=record,
+        grace=grace,
         threads=threads,
         insecure=insecure,
     )

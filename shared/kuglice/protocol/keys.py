@@ -92,25 +92,26 @@ class Keys:
     @property
     def inputs(self) -> str:
         """The input keys of all clients, for the server to subscribe to."""
-        return self._under("input/*")
+        return self._under("input/*/*")
 
     @property
     def clients(self) -> str:
         """The liveliness tokens of all clients."""
-        return self._under("client/*")
+        return self._under("client/*/*")
 
-    def input(self, client: str) -> str:
-        """Put by the client of that name, and by nobody else."""
-        return self._under(f"input/{check_name('client', client)}")
+    def input(self, client: str, session: str) -> str:
+        """Put by that session of the client of that name, and by nobody else; deleted when it leaves."""
+        return self._under(f"input/{check_name('client', client)}/{check_name('session', session)}")
 
-    def client(self, client: str) -> str:
-        """Liveliness token of the client of that name."""
-        return self._under(f"client/{check_name('client', client)}")
+    def client(self, client: str, session: str) -> str:
+        """Liveliness token of that session of the client of that name."""
+        return self._under(f"client/{check_name('client', client)}/{check_name('session', session)}")
 
     @staticmethod
-    def client_of(key: str) -> str:
-        """Name of the client that an input or liveliness key belongs to; raises ProtocolError."""
-        return check_name("client", key.rpartition("/")[2])
+    def client_of(key: str) -> tuple[str, str]:
+        """Name and session of the client that an input or liveliness key belongs to; raises ProtocolError."""
+        _, client, session = ["", "", *key.split("/")][-3:]
+        return check_name("client", client), check_name("session", session)
 
     @staticmethod
     def world_of(key: str) -> str:

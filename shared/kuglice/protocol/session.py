@@ -27,8 +27,9 @@ LEASE_MS = 2000
 
 LINKS = 2
 """Between two sessions: a stream, and datagrams beside it."""
-OPEN_TIMEOUT_MS = 2000
-"""How long a link that nobody answers on is tried, when another one is there."""
+OPEN_TIMEOUT_MS = 1500
+"""How long a link that nobody answers on is tried: it may have been cut, or another one be there."""
+RETRY_MS = 200
 
 
 class Declared(Protocol):
@@ -79,11 +80,13 @@ def _configuration(
                 for target in targets
             ],
             "timeout_ms": int(timeout * 1000),
+            # A link that was cut is back when it is back: waiting longer and longer for it helps nobody.
+            "retry": {"period_init_ms": RETRY_MS, "period_max_ms": RETRY_MS, "period_increase_factor": 1.0},
         }
+        configuration["transport"]["unicast"]["open_timeout"] = OPEN_TIMEOUT_MS
         if mode == "client" and any(len(target) > 1 for target in targets):
             # With any other timeout Zenoh wants all links or none; so it goes on with the one it gets, at once.
             configuration["connect"]["timeout_ms"] = 0
-            configuration["transport"]["unicast"]["open_timeout"] = OPEN_TIMEOUT_MS
     if lease_ms is not None:
         configuration["transport"]["link"] = {"tx": {"lease": lease_ms}}
     return configuration

@@ -10,7 +10,7 @@ from kuglice.protocol.messages.part import PART_BYTES, Part
 from kuglice.protocol.messages.refusal import Refusal
 from kuglice.protocol.messages.region import MAX_REGION_BALLS, Region
 from kuglice.protocol.messages.request import SnapshotRequest, TickRange
-from kuglice.protocol.messages.status import ClientStatus, Status
+from kuglice.protocol.messages.status import ClientStatus, SessionRefusal, Status
 from kuglice.protocol.messages.stretch import Stretch, StretchedTick
 from kuglice.protocol.messages.tick import MAX_TOLD_TICKS, Tick
 from kuglice.protocol.messages.view_about import PACES, RegionTerms, ViewAbout
@@ -34,6 +34,7 @@ __all__ = [
     "Region",
     "RegionTerms",
     "SentInput",
+    "SessionRefusal",
     "SnapshotRequest",
     "Status",
     "Stretch",

@@ -8,20 +8,34 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from kuglice.protocol.messages.envelope import U64, Message, TickNumber
 
-__all__ = ["ClientStatus", "Status"]
+__all__ = ["ClientStatus", "SessionRefusal", "Status"]
 
 
 class ClientStatus(BaseModel):
-    """A client that is here (`number` orders its inputs in the step), or was refused, and then why."""
+    """A client that is here; `number` orders its inputs in the step.
+
+    `session` is the one that plays it; `away`: its link is cut, and its return waited for.
+    """
 
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
 
     number: int
+    session: str
+    away: bool
     sequence: U64
     accepted: int
     late: int
     refused: int
-    refusal: Annotated[str, Field(max_length=400)] | None = None
+
+
+class SessionRefusal(BaseModel):
+    """A session that was not let in as the client `name`, and why."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
+
+    name: str
+    session: str
+    reason: Annotated[str, Field(max_length=400)]
 
 
 class Status(Message):
@@ -35,6 +49,7 @@ class Status(Message):
     rate: float
     balls: int
     clients: dict[str, ClientStatus]
+    refusals: list[SessionRefusal]
     counters: dict[str, int]
     seconds_lost: float
     worst_lateness: float
