@@ -293,6 +293,12 @@ impl World {
         self.team = team;
     }
 
+    /// Replaces the treatment of contacts: tests compare two ways of one.
+    #[cfg(test)]
+    pub(crate) fn treat_contacts_by(&mut self, contacts: Box<dyn Contacts>) {
+        self.contacts = contacts;
+    }
+
     /// Who does the work.
     #[must_use]
     pub fn team(&self) -> &Team {

@@ -15,20 +15,45 @@
 //! would be back within the substep; it is held there, and gets its velocity back at the end.
 
 use super::paths::{Motion, Paths};
+use super::piece::{mass, radius};
 use super::rest::Support;
-use crate::Balls;
 use crate::contacts::exchange::{Shares, normal, transfer};
 use crate::walls::Wall;
+use crate::{Balls, Vec2};
 
 /// Contact time, as a part of the substep.
 const CONTACT_TIME: f64 = 1.0 / 1024.0;
 /// A fall through this part of a radius is taken for rounding.
 const ROUNDING_FALL: f64 = 1e-12;
+/// The part of an acceleration below which what contacts leave of it is rounding.
+pub(super) const ROUNDING: f64 = 1e-9;
 
 /// The law of contact of one substep.
 pub(super) struct Law {
+    motion: Motion,
     restitution: f64,
     length: f64,
+}
+
+/// A ball at a contact.
+pub(super) struct Body {
+    pub(super) velocity: Vec2,
+    pub(super) acceleration: Vec2,
+    /// The speed that its own acceleration gains in the substep.
+    pub(super) gain: f64,
+    pub(super) radius: f64,
+    pub(super) mass: f64,
+    /// It was hit within the contact time.
+    pub(super) again: bool,
+}
+
+/// What comes of a contact.
+pub(super) struct Outcome<Velocities> {
+    pub(super) fate: Fate,
+    /// After it.
+    pub(super) velocities: Velocities,
+    /// An impulse passed.
+    pub(super) hit: bool,
 }
 
 /// A contact, as seen along its normal.
@@ -48,7 +73,8 @@ struct Meeting {
 }
 
 /// What becomes of the approach.
-enum Fate {
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Fate {
     /// It is turned round, times this restitution.
     Bounce(f64),
     /// It ends, and the contact bears the acceleration.
@@ -60,11 +86,15 @@ enum Fate {
 }
 
 impl Law {
-    pub(super) fn new(restitution: f64, length: f64) -> Law {
-        Law { restitution, length }
+    pub(super) fn new(motion: Motion, restitution: f64, length: f64) -> Law {
+        Law {
+            motion,
+            restitution,
+            length,
+        }
     }
 
-    fn fate(&self, meeting: &Meeting, motion: Motion) -> Fate {
+    fn fate(&self, meeting: &Meeting) -> Fate {
         let &Meeting {
             approach,
             pressing,
@@ -90,14 +120,106 @@ impl Law {
                 self.restitution
             });
         }
-        match motion {
+        match self.motion {
             Motion::Kicked if pressing > 0.0 => Fate::Hold,
             _ => Fate::Pass,
         }
     }
 
-    fn is_again(&self, paths: &Paths, index: usize, time: f64) -> bool {
-        paths.hits[index] > 0 && time - paths.since[index] < CONTACT_TIME * self.length
+    /// An acceleration between two balls, or 0 if it is no more than what rounding leaves of theirs.
+    fn felt(&self, pressing: f64, whole: f64) -> f64 {
+        if pressing * self.length > ROUNDING * whole {
+            pressing
+        } else {
+            0.0
+        }
+    }
+
+    /// Whether a ball that was hit so often, last at `since`, was hit within the contact time.
+    pub(super) fn is_again(&self, hits: u32, since: f64, time: f64) -> bool {
+        hits > 0 && time - since < CONTACT_TIME * self.length
+    }
+
+    /// What comes of a contact of two balls, if anything; `along` points from the first centre to the second.
+    #[inline]
+    pub(super) fn of_pair(&self, along: Vec2, first: &Body, second: &Body) -> Option<Outcome<[Vec2; 2]>> {
+        let length = along.length();
+        let approach = (first.velocity - second.velocity).dot(along);
+        let pressing = if self.motion == Motion::Straight {
+            0.0
+        } else {
+            (first.acceleration - second.acceleration).dot(along)
+        };
+        let gain = first.gain.max(second.gain);
+        let fate = self.fate(&Meeting {
+            approach: approach / length,
+            pressing: self.felt(pressing / length, gain),
+            radius: first.radius.min(second.radius),
+            slow: gain,
+            again: first.again || second.again,
+            alone: false,
+        });
+        let restitution = match fate {
+            Fate::Bounce(restitution) => restitution,
+            Fate::Rest | Fate::Hold => 0.0,
+            Fate::Pass => return None,
+        };
+        let shares = Shares::new(first.mass, second.mass, restitution)?;
+        let (w1, w2) = transfer(along, approach, shares, first.velocity, second.velocity);
+        if matches!(fate, Fate::Bounce(_)) && (w1 - w2).dot(along) > 0.5 * approach {
+            // An approach below the last bits of the velocities cannot be exchanged: it is rounding, left alone.
+            return None;
+        }
+        Some(Outcome {
+            fate,
+            velocities: [w1, w2],
+            hit: approach > 0.0,
+        })
+    }
+
+    /// What comes of a contact of a ball with a wall, if anything; `alone`: it touches no other ball.
+    #[inline]
+    pub(super) fn of_wall(&self, wall: &Wall, ball: &Body, alone: bool) -> Option<Outcome<Vec2>> {
+        let approach = -ball.velocity.dot(wall.inward);
+        let pressing = if self.motion == Motion::Straight {
+            0.0
+        } else {
+            -ball.acceleration.dot(wall.inward)
+        };
+        let fate = self.fate(&Meeting {
+            approach,
+            pressing: self.felt(pressing, ball.gain),
+            radius: ball.radius,
+            slow: ball.gain,
+            again: ball.again,
+            alone,
+        });
+        let away = match fate {
+            Fate::Bounce(restitution) => restitution * approach,
+            Fate::Rest | Fate::Hold => 0.0,
+            Fate::Pass => return None,
+        };
+        Some(Outcome {
+            fate,
+            velocities: wall.with_normal(ball.velocity, away),
+            hit: approach > 0.0,
+        })
+    }
+
+    /// A ball on its path, at that place and time.
+    fn body(&self, paths: &Paths, balls: &Balls, index: usize, path: Vec2, time: f64) -> Body {
+        Body {
+            velocity: path + paths.ahead(index, time),
+            acceleration: if self.motion == Motion::Straight {
+                Vec2::ZERO
+            } else {
+                paths.acceleration[index]
+            },
+            gain: paths.gain(index),
+            radius: radius(balls, index),
+            mass: mass(balls, index),
+            again: self.is_again(paths.hits[index], paths.since[index], time),
+        }
     }
 
     /// Two balls meet. True if an impulse passes between them; `changed` gets the balls that have new paths.
@@ -109,54 +231,29 @@ impl Law {
         time: f64,
         changed: &mut Vec<usize>,
     ) -> bool {
-        let (p1, path1) = paths.at(balls, first, time);
-        let (p2, path2) = paths.at(balls, second, time);
+        let (p1, path1) = paths.piece(balls, first).at(self.motion, time);
+        let (p2, path2) = paths.piece(balls, second).at(self.motion, time);
         let along = normal(p1, p2);
-        let length = along.length();
-        let support = Support::new(first, Some(second), along * (1.0 / length));
+        let support = Support::new(first, Some(second), along * (1.0 / along.length()));
         if paths.supports.hold(&support) {
             return false;
         }
-        let (v1, v2) = (
-            path1 + paths.ahead(first, time),
-            path2 + paths.ahead(second, time),
-        );
-        let approach = (v1 - v2).dot(along);
-        let pressing = if paths.motion == Motion::Straight {
-            0.0
-        } else {
-            (paths.acceleration[first] - paths.acceleration[second]).dot(along)
-        };
-        let meeting = Meeting {
-            approach: approach / length,
-            pressing: paths.felt(pressing / length, first, second),
-            radius: balls.radius[first].min(balls.radius[second]),
-            slow: paths.gain(first).max(paths.gain(second)),
-            again: self.is_again(paths, first, time) || self.is_again(paths, second, time),
-            alone: false,
-        };
-        let fate = self.fate(&meeting, paths.motion);
-        let restitution = match fate {
-            Fate::Bounce(restitution) => restitution,
-            Fate::Rest | Fate::Hold => 0.0,
-            Fate::Pass => return false,
-        };
-        let Some(shares) = Shares::new(balls.mass[first], balls.mass[second], restitution) else {
+        let bodies = [
+            self.body(paths, balls, first, path1, time),
+            self.body(paths, balls, second, path2, time),
+        ];
+        let Some(outcome) = self.of_pair(along, &bodies[0], &bodies[1]) else {
             return false;
         };
-        let (w1, w2) = transfer(along, approach, shares, v1, v2);
-        let bounces = matches!(fate, Fate::Bounce(_));
-        if bounces && (w1 - w2).dot(along) > 0.5 * approach {
-            // An approach below the last bits of the velocities cannot be exchanged: it is rounding, left alone.
-            return false;
-        }
-        if matches!(fate, Fate::Hold) {
-            paths.deferred.push((first, v1 - w1));
-            paths.deferred.push((second, v2 - w2));
+        let [w1, w2] = outcome.velocities;
+        if outcome.fate == Fate::Hold {
+            paths.deferred.push((first, bodies[0].velocity - w1));
+            paths.deferred.push((second, bodies[1].velocity - w2));
         }
         let struck = [(first, p1, w1), (second, p2, w2)];
-        paths.strike(balls, time, &struck, (!bounces).then_some(support), changed);
-        approach > 0.0
+        let bears = !matches!(outcome.fate, Fate::Bounce(_));
+        paths.strike(balls, time, &struck, bears.then_some(support), changed);
+        outcome.hit
     }
 
     /// A ball meets a wall; the rest is as for a pair.
@@ -173,33 +270,23 @@ impl Law {
         if paths.supports.hold(&support) {
             return false;
         }
-        let (place, path) = paths.at(balls, index, time);
-        let velocity = path + paths.ahead(index, time);
-        let approach = -velocity.dot(wall.inward);
-        let pressing = if paths.motion == Motion::Straight {
-            0.0
-        } else {
-            -paths.acceleration[index].dot(wall.inward)
+        let (place, path) = paths.piece(balls, index).at(self.motion, time);
+        let body = self.body(paths, balls, index, path, time);
+        let Some(outcome) = self.of_wall(wall, &body, paths.is_alone(index)) else {
+            return false;
         };
-        let meeting = Meeting {
-            approach,
-            pressing: paths.felt(pressing, index, index),
-            radius: balls.radius[index],
-            slow: paths.gain(index),
-            again: self.is_again(paths, index, time),
-            alone: paths.is_alone(index),
-        };
-        let (after, support) = match self.fate(&meeting, paths.motion) {
-            Fate::Bounce(restitution) => (wall.with_normal(velocity, restitution * approach), None),
-            Fate::Rest => (wall.with_normal(velocity, 0.0), Some(support)),
-            Fate::Hold => {
-                let after = wall.with_normal(velocity, 0.0);
-                paths.deferred.push((index, velocity - after));
-                (after, Some(support))
-            }
-            Fate::Pass => return false,
-        };
-        paths.strike(balls, time, &[(index, place, after)], support, changed);
-        approach > 0.0
+        let after = outcome.velocities;
+        if outcome.fate == Fate::Hold {
+            paths.deferred.push((index, body.velocity - after));
+        }
+        let bears = !matches!(outcome.fate, Fate::Bounce(_));
+        paths.strike(
+            balls,
+            time,
+            &[(index, place, after)],
+            bears.then_some(support),
+            changed,
+        );
+        outcome.hit
     }
 }

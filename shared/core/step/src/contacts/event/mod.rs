@@ -10,44 +10,70 @@
 //! rest and collapse below restitution 1: see [`contact`].
 
 mod contact;
+mod first;
+mod groups;
 mod paths;
+mod piece;
 mod predict;
 mod queue;
 mod rest;
+mod sequence;
+#[cfg(test)]
+mod tests;
 
 use super::{Contacts, EVENT_LIMIT, Substep};
-use crate::broadphase::{Discs, Found, Pair, Reach};
 use crate::force::{Acceleration, Body, Field};
 use crate::walls::Walls;
 use crate::{Balls, Error, Vec2};
 
-use contact::Law;
+use first::First;
+use groups::Grouped;
 use paths::{Motion, Paths};
-use queue::{Event, Queue};
+use piece::{Piece, radius};
+use queue::{Event, Party};
+use sequence::Sequence;
 
-#[derive(Default)]
 pub(super) struct EventDriven {
     paths: Paths,
-    queue: Queue,
-    /// What is predicted at the start, by pieces of the work.
-    predicted: Vec<Vec<Event>>,
-    found: Found,
-    near: Vec<u32>,
-    /// Balls that the last event gave new paths.
-    changed: Vec<usize>,
+    first: First,
+    /// None: all in sequence.
+    grouped: Option<Grouped>,
+    sequence: Sequence,
+}
+
+impl Default for EventDriven {
+    fn default() -> EventDriven {
+        EventDriven::new(Some(Grouped::default()))
+    }
 }
 
 impl Contacts for EventDriven {
     fn advance(&mut self, substep: &mut Substep<'_>) -> Result<(), Error> {
         self.begin(substep);
-        self.predict_all(substep);
-        self.run(substep)?;
+        self.first.predict(&mut self.paths, substep);
+        spend(substep, self.first.pairs())?;
+        if let Some(grouped) = &mut self.grouped
+            && grouped.run(&self.paths, substep, self.first.lists())
+        {
+            return Ok(());
+        }
+        self.sequence
+            .run(&mut self.paths, substep, self.first.lists_mut())?;
         self.end(substep);
         Ok(())
     }
 }
 
 impl EventDriven {
+    fn new(grouped: Option<Grouped>) -> EventDriven {
+        EventDriven {
+            paths: Paths::default(),
+            first: First::default(),
+            grouped,
+            sequence: Sequence::default(),
+        }
+    }
+
     fn begin(&mut self, substep: &mut Substep<'_>) {
         let balls = &mut *substep.balls;
         let (dt, elastic) = (substep.dt, substep.rules.restitution() == 1.0);
@@ -71,103 +97,6 @@ impl EventDriven {
             for (velocity, acceleration) in balls.velocity.iter_mut().zip(&self.paths.acceleration) {
                 *velocity += *acceleration * (0.5 * substep.dt);
             }
-        }
-        self.paths.sweep(balls, substep.team);
-    }
-
-    fn predict_all(&mut self, substep: &mut Substep<'_>) {
-        let balls = &*substep.balls;
-        let walls = Walls::of(substep.rules);
-        let discs = Discs {
-            center: &self.paths.center,
-            reach: Reach::Each(&self.paths.reach),
-        };
-        substep.broadphase.build(&discs, substep.team);
-        substep.broadphase.pairs(&discs, substep.team, &mut self.found);
-        if self.paths.notes_touches() {
-            for (first, second) in self.found.iter() {
-                self.paths.note_touch(balls, first as usize, second as usize);
-            }
-        }
-        let (paths, lists) = (&self.paths, self.found.lists());
-        self.predicted.resize_with(lists.len(), Vec::new);
-        let pieces = (&mut self.predicted[..], lists, 0..lists.len());
-        let (count, parts) = (balls.len(), lists.len());
-        substep.team.each(pieces, 1, &|(predicted, lists, parts_here)| {
-            for ((events, list), part) in predicted.iter_mut().zip(lists).zip(parts_here) {
-                predict_pairs(paths, balls, list, events);
-                if let Some(walls) = &walls {
-                    for index in count * part / parts..count * (part + 1) / parts {
-                        if !walls.hold(paths.center[index], paths.reach[index]) {
-                            predict_walls(paths, balls, walls, index, |event| events.push(event));
-                        }
-                    }
-                }
-            }
-        });
-        self.queue.begin(&mut self.predicted);
-    }
-
-    fn run(&mut self, substep: &mut Substep<'_>) -> Result<(), Error> {
-        spend(substep, self.found.count())?;
-        let walls = Walls::of(substep.rules);
-        let law = Law::new(substep.rules.restitution(), substep.dt);
-        let mut count = 0;
-        while let Some(event) = self.queue.next(&self.paths.hits) {
-            count += 1;
-            if count + self.paths.supports.sweeps() > EVENT_LIMIT {
-                return Err(event_limit(substep, &event));
-            }
-            spend(substep, 1)?;
-            let first = event.first as usize;
-            self.changed.clear();
-            match event.partner.as_ball() {
-                Some(second) => {
-                    let (paths, changed) = (&mut self.paths, &mut self.changed);
-                    let hit = law.pair(paths, substep.balls, (first, second), event.time, changed);
-                    substep.counters.collisions += u64::from(hit);
-                }
-                None => {
-                    let Some(wall) = walls.as_ref().map(|walls| walls.wall(event.partner.as_wall())) else {
-                        continue;
-                    };
-                    let (paths, changed) = (&mut self.paths, &mut self.changed);
-                    let hit = law.wall(paths, substep.balls, first, &wall, event.time, changed);
-                    substep.counters.wall_hits += u64::from(hit);
-                }
-            }
-            for at in 0..self.changed.len() {
-                self.predict_again(substep, walls.as_ref(), self.changed[at]);
-                spend(substep, self.near.len())?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Puts a ball that was hit elsewhere in the tree and predicts its next collisions.
-    fn predict_again(&mut self, substep: &mut Substep<'_>, walls: Option<&Walls>, index: usize) {
-        let balls = &*substep.balls;
-        self.paths.sweep_one(balls, index);
-        let (center, reach) = (self.paths.center[index], self.paths.reach[index]);
-        substep.broadphase.relocate(index, center, reach);
-        self.near.clear();
-        substep.broadphase.query(center, reach, &mut self.near);
-        for &other in &self.near {
-            let other = other as usize;
-            if other == index {
-                continue;
-            }
-            let (first, second) = balls.in_id_order(index, other);
-            if let Some(time) = predict::pair(&self.paths, balls, first, second) {
-                let event = Event::of_pair(time, first, second, balls, &self.paths.hits);
-                self.queue.push(event);
-            }
-        }
-        if let Some(walls) = walls
-            && !walls.hold(center, reach)
-        {
-            let queue = &mut self.queue;
-            predict_walls(&self.paths, balls, walls, index, |event| queue.push(event));
         }
     }
 
@@ -197,19 +126,19 @@ impl EventDriven {
     }
 }
 
-fn predict_walls(paths: &Paths, balls: &Balls, walls: &Walls, index: usize, mut add: impl FnMut(Event)) {
+/// Shows the collisions of a ball on this piece of path with the walls.
+fn predict_walls(
+    paths: &Paths,
+    balls: &Balls,
+    walls: &Walls,
+    index: usize,
+    (piece, party): (&Piece, Party),
+    mut show: impl FnMut(Event),
+) {
     for number in 0..4 {
-        if let Some(time) = predict::wall(paths, balls, index, &walls.wall(number)) {
-            add(Event::of_wall(time, index, number, balls, &paths.hits));
-        }
-    }
-}
-
-fn predict_pairs(paths: &Paths, balls: &Balls, pairs: &[Pair], events: &mut Vec<Event>) {
-    for &(first, second) in pairs {
-        let (first, second) = balls.in_id_order(first as usize, second as usize);
-        if let Some(time) = predict::pair(paths, balls, first, second) {
-            events.push(Event::of_pair(time, first, second, balls, &paths.hits));
+        let wall = walls.wall(number);
+        if let Some(time) = predict::wall(paths.length, radius(balls, index), piece, &wall) {
+            show(Event::of_wall(time, party, number));
         }
     }
 }

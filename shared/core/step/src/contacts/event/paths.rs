@@ -4,13 +4,12 @@
 //! and `since` is the time at which that piece began. A collision time is computed from two pieces alone, so it does
 //! not depend on when, or by which broadphase, the pair was looked at.
 
+use super::contact::ROUNDING;
+use super::piece::{Piece, radius, widen};
 use super::rest::{Support, Supports};
 use crate::force::Body;
 use crate::team::GRAIN;
 use crate::{Balls, Team, Vec2};
-
-/// The part of an acceleration below which what contacts leave of it is rounding.
-const ROUNDING: f64 = 1e-9;
 
 /// What a piece of path is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -63,10 +62,6 @@ impl Paths {
         let count = balls.len();
         self.motion = motion;
         self.length = length;
-        self.since.clear();
-        self.since.resize(count, 0.0);
-        self.hits.clear();
-        self.hits.resize(count, 0);
         self.acceleration.clear();
         self.kicks.clear();
         self.deferred.clear();
@@ -92,6 +87,14 @@ impl Paths {
         }
     }
 
+    /// Counts hits from the start of the substep on.
+    pub(super) fn count_hits(&mut self, balls: &Balls) {
+        self.since.clear();
+        self.since.resize(balls.len(), 0.0);
+        self.hits.clear();
+        self.hits.resize(balls.len(), 0);
+    }
+
     /// The speed that a ball's acceleration gains in the substep.
     #[inline]
     pub(super) fn gain(&self, index: usize) -> f64 {
@@ -99,16 +102,6 @@ impl Paths {
             0.0
         } else {
             self.kicks[index].length() * self.length
-        }
-    }
-
-    /// An acceleration between two balls, or 0 if it is no more than what rounding leaves of theirs.
-    pub(super) fn felt(&self, pressing: f64, first: usize, second: usize) -> f64 {
-        let whole = self.gain(first).max(self.gain(second));
-        if pressing * self.length > ROUNDING * whole {
-            pressing
-        } else {
-            0.0
         }
     }
 
@@ -136,7 +129,7 @@ impl Paths {
 
     /// Acceleration along the path.
     #[inline]
-    pub(super) fn curvature(&self, index: usize) -> Vec2 {
+    fn curvature(&self, index: usize) -> Vec2 {
         if self.motion == Motion::Curved {
             self.acceleration[index]
         } else {
@@ -144,20 +137,30 @@ impl Paths {
         }
     }
 
-    /// Place and velocity along the path at a time of the substep.
+    /// The piece of path that a ball is on.
     #[inline]
-    pub(super) fn at(&self, balls: &Balls, index: usize, time: f64) -> (Vec2, Vec2) {
-        self.along(balls.position[index], balls.velocity[index], index, time)
+    pub(super) fn piece(&self, balls: &Balls, index: usize) -> Piece {
+        Piece {
+            since: self.since[index],
+            ..self.first_piece(balls, index)
+        }
     }
 
+    /// The piece of path that a ball is on at the start of the substep.
     #[inline]
-    fn along(&self, position: Vec2, velocity: Vec2, index: usize, time: f64) -> (Vec2, Vec2) {
-        let s = time - self.since[index];
-        if self.motion == Motion::Curved {
-            let a = self.acceleration[index];
-            return (position + velocity * s + a * (0.5 * s * s), velocity + a * s);
+    pub(super) fn first_piece(&self, balls: &Balls, index: usize) -> Piece {
+        self.first_piece_of(index, balls.position[index], balls.velocity[index])
+    }
+
+    /// The same of a ball that is there, and as fast, at the start of the substep.
+    #[inline]
+    pub(super) fn first_piece_of(&self, index: usize, position: Vec2, velocity: Vec2) -> Piece {
+        Piece {
+            since: 0.0,
+            position,
+            velocity,
+            curvature: self.curvature(index),
         }
-        (position + velocity * s, velocity)
     }
 
     /// How much faster a ball moves than along its path: between kicks, the path has the velocity of the middle.
@@ -204,7 +207,7 @@ impl Paths {
         let before: Vec<_> = loose
             .iter()
             .map(|&index| {
-                let (place, path) = self.at(balls, index, time);
+                let (place, path) = self.piece(balls, index).at(self.motion, time);
                 (
                     index,
                     place,
@@ -264,7 +267,8 @@ impl Paths {
         if paths.motion == Motion::Curved {
             team.each(whole, GRAIN, &|(centers, reaches, indices)| {
                 for ((center, reach), index) in centers.iter_mut().zip(reaches).zip(indices) {
-                    (*center, *reach) = paths.disc(balls, index);
+                    let piece = paths.first_piece(balls, index);
+                    (*center, *reach) = piece.disc(paths.motion, paths.length, radius(balls, index));
                 }
             });
         } else {
@@ -297,19 +301,8 @@ impl Paths {
 
     /// The disc around what is left of one path.
     pub(super) fn sweep_one(&mut self, balls: &Balls, index: usize) {
-        (self.center[index], self.reach[index]) = self.disc(balls, index);
-    }
-
-    fn disc(&self, balls: &Balls, index: usize) -> (Vec2, f64) {
-        let start = balls.position[index];
-        let (end, _) = self.at(balls, index, self.length);
-        let left = self.length - self.since[index];
-        // A parabola leaves its chord by at most |a| t^2 / 8.
-        let sag = self.curvature(index).length() * (left * left * 0.125);
-        (
-            (start + end) * 0.5,
-            widen(balls.radius[index], (end - start).length() * 0.5 + sag),
-        )
+        let piece = self.piece(balls, index);
+        (self.center[index], self.reach[index]) = piece.disc(self.motion, self.length, radius(balls, index));
     }
 
     /// Moves all balls to the end of the substep.
@@ -318,14 +311,12 @@ impl Paths {
         let whole = (&mut balls.position[..], &mut balls.velocity[..], indices);
         team.each(whole, GRAIN, &|(positions, velocities, indices)| {
             for ((position, velocity), index) in positions.iter_mut().zip(velocities).zip(indices) {
-                (*position, *velocity) = self.along(*position, *velocity, index, self.length);
+                let piece = Piece {
+                    since: self.since[index],
+                    ..self.first_piece_of(index, *position, *velocity)
+                };
+                (*position, *velocity) = piece.at(self.motion, self.length);
             }
         });
     }
-}
-
-/// A little more than both, so that rounding leaves no touch outside the disc.
-#[inline]
-fn widen(radius: f64, travel: f64) -> f64 {
-    (radius + travel) * (1.0 + 1e-9)
 }

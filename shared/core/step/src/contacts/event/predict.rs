@@ -1,24 +1,36 @@
 //! Collision times. A pair whose accelerations are equal, and every wall, is a quadratic root.
 
 use super::paths::Paths;
+use super::piece::{Piece, mass, radius};
 use crate::contacts::root::first_fall;
 use crate::walls::Wall;
 use crate::{Balls, Vec2};
 
 /// When two balls collide next, if they do before the substep ends.
+#[inline]
 pub(super) fn pair(paths: &Paths, balls: &Balls, first: usize, second: usize) -> Option<f64> {
-    let reach = match balls.uniform() {
-        Some(shape) if shape.mass.is_infinite() => return None,
-        Some(shape) => shape.radius + shape.radius,
-        None if balls.mass[first].is_infinite() && balls.mass[second].is_infinite() => return None,
-        None => balls.radius[first] + balls.radius[second],
-    };
-    let start = paths.since[first].max(paths.since[second]);
-    let (p1, v1) = paths.at(balls, first, start);
-    let (p2, v2) = paths.at(balls, second, start);
+    let pieces = (&paths.piece(balls, first), &paths.piece(balls, second));
+    pieces_of(paths, balls, (first, second), pieces)
+}
+
+/// When two balls on these pieces of path collide next, if they do before the substep ends.
+#[inline]
+pub(super) fn pieces_of(
+    paths: &Paths,
+    balls: &Balls,
+    (first, second): (usize, usize),
+    (one, another): (&Piece, &Piece),
+) -> Option<f64> {
+    if mass(balls, first).is_infinite() && mass(balls, second).is_infinite() {
+        return None;
+    }
+    let reach = radius(balls, first) + radius(balls, second);
+    let start = one.since.max(another.since);
+    let (p1, v1) = one.at(paths.motion, start);
+    let (p2, v2) = another.at(paths.motion, start);
     let (between, relative) = (p2 - p1, v2 - v1);
     let left = paths.length - start;
-    let bend = paths.curvature(second) - paths.curvature(first);
+    let bend = another.curvature - one.curvature;
     let wait = if bend == Vec2::ZERO {
         straight(between, relative, reach)?
     } else {
@@ -58,13 +70,12 @@ fn bent(between: Vec2, relative: Vec2, bend: Vec2, reach: f64, left: f64) -> Opt
     first_fall(&[slope, second, third, fourth, 0.0], left)
 }
 
-/// When a ball hits a wall next, if it does before the substep ends.
-pub(super) fn wall(paths: &Paths, balls: &Balls, index: usize, wall: &Wall) -> Option<f64> {
-    let start = paths.since[index];
+/// When a ball on this piece of path hits a wall next, if it does before the substep ends.
+pub(super) fn wall(length: f64, radius: f64, piece: &Piece, wall: &Wall) -> Option<f64> {
     // What reaches beyond the wall touches it where it is.
-    let gap = wall.gap(balls.position[index], balls.radius[index]).max(0.0);
-    let away = balls.velocity[index].dot(wall.inward);
-    let pull = -paths.curvature(index).dot(wall.inward);
+    let gap = wall.gap(piece.position, radius).max(0.0);
+    let away = piece.velocity.dot(wall.inward);
+    let pull = -piece.curvature.dot(wall.inward);
     let wait = if away < 0.0 {
         // Where the pull is away from the wall, the ball may turn before it.
         let root = away * away + 2.0 * pull * gap;
@@ -74,5 +85,5 @@ pub(super) fn wall(paths: &Paths, balls: &Balls, index: usize, wall: &Wall) -> O
     } else {
         return None;
     };
-    (wait <= paths.length - start).then_some(start + wait)
+    (wait <= length - piece.since).then_some(piece.since + wait)
 }

@@ -6,8 +6,6 @@
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
-use crate::Balls;
-
 /// What a ball meets: another ball, or one of the four walls, which come behind all balls at equal times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Partner(u32);
@@ -35,26 +33,44 @@ pub(super) struct Event {
     ids: (u64, u64),
 }
 
+/// A ball, as an event sees it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Party {
+    pub(super) index: usize,
+    pub(super) id: u64,
+    /// How often it was hit when the event was predicted.
+    pub(super) hits: u32,
+}
+
 impl Event {
     /// Two balls meet; `first` has the lower id.
-    pub(super) fn of_pair(time: f64, first: usize, second: usize, balls: &Balls, hits: &[u32]) -> Event {
+    pub(super) fn of_pair(time: f64, first: Party, second: Party) -> Event {
         Event {
             time,
-            first: first as u32,
-            partner: Partner(second as u32),
-            hits: (hits[first], hits[second]),
-            ids: (balls.id[first], balls.id[second]),
+            first: first.index as u32,
+            partner: Partner(second.index as u32),
+            hits: (first.hits, second.hits),
+            ids: (first.id, second.id),
         }
     }
 
     /// A ball meets a wall.
-    pub(super) fn of_wall(time: f64, ball: usize, wall: u32, balls: &Balls, hits: &[u32]) -> Event {
+    pub(super) fn of_wall(time: f64, ball: Party, wall: u32) -> Event {
         Event {
             time,
-            first: ball as u32,
+            first: ball.index as u32,
             partner: Partner(FIRST_WALL + wall),
-            hits: (hits[ball], 0),
-            ids: (balls.id[ball], u64::MAX - 3 + u64::from(wall)),
+            hits: (ball.hits, 0),
+            ids: (ball.id, u64::MAX - 3 + u64::from(wall)),
+        }
+    }
+
+    /// The same event of balls that are counted otherwise.
+    pub(super) fn between(&self, first: usize, second: Option<usize>) -> Event {
+        Event {
+            first: first as u32,
+            partner: second.map_or(self.partner, |second| Partner(second as u32)),
+            ..*self
         }
     }
 
@@ -95,13 +111,18 @@ pub(super) struct Queue {
 
 impl Queue {
     /// Begins with the events of these lists, which it empties.
-    pub(super) fn begin(&mut self, predicted: &mut [Vec<Event>]) {
-        self.sorted.clear();
-        self.later.clear();
-        for events in predicted {
+    pub(super) fn begin<'a>(&mut self, lists: impl Iterator<Item = &'a mut Vec<Event>>) {
+        self.clear();
+        for events in lists {
             self.sorted.append(events);
         }
         self.sorted.sort_unstable_by(|first, second| second.cmp(first));
+    }
+
+    /// Forgets all events.
+    pub(super) fn clear(&mut self) {
+        self.sorted.clear();
+        self.later.clear();
     }
 
     pub(super) fn push(&mut self, event: Event) {
