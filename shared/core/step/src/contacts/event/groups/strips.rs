@@ -7,7 +7,7 @@ use crate::Balls;
 /// Balls that are looked at to lay the strips out.
 const SAMPLE: usize = 1024;
 /// The slack, in lengths of a mean path.
-const SLACK: f64 = 1.5;
+const SLACK: f64 = 2.5;
 
 /// From one height to another; what touches its bounds is not in it.
 #[derive(Clone, Copy, Debug)]
