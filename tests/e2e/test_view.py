@@ -56,9 +56,9 @@ def assert_is_a_part(view: View, tick: int, record) -> None:
     """The view's world of that tick is the part of the recorded one that it follows, within what was promised."""
     state = view.known.at(tick)
     truth = next(world for world in kg.replay.Replay.load(record).worlds() if world.tick == tick)
-    here = np.isin(view.known._node_of(truth.position), list(view.interest.paces))
-    assert state.id.tolist() == truth.id[here].tolist()
     terms = view.about.regions
+    here = np.isin(terms.packer(truth.scene.box).node(truth.position), list(view.interest.paces))
+    assert state.id.tolist() == truth.id[here].tolist()
     assert np.abs(state.position - truth.position[here]).max(initial=0) <= terms.position_quantum / 2
     assert np.abs(state.velocity - truth.velocity[here]).max(initial=0) <= terms.velocity_quantum / 2
     left, bottom, right, top = view.rectangle

@@ -149,11 +149,11 @@ def test_publishers_grow_only_below_what_is_looked_at(wired):
     wire = wired(gas(20_000))
     assert wire.terms.depth == 4
     wire.turn()
-    assert wire.publisher._watch.publishers == PACES
+    assert wire.publisher.publishers == PACES
     heard = wire.look(KEYS.region(1, wire.nodes.path(77)))
     wire.turn()
     wire.turn()
-    assert wire.publisher._watch.publishers == PACES + 4 * wire.terms.depth
+    assert wire.publisher.publishers == PACES + 4 * wire.terms.depth
     heard.end()
 
 

@@ -11,7 +11,6 @@ which costs a fifteenth of sending each by itself; as a datagram such a batch wo
 from __future__ import annotations
 
 import logging
-import time
 from collections import Counter
 
 import zenoh
@@ -57,7 +56,11 @@ class RegionPublisher:
         self._held: tuple[object, object] | None = None
         self._held_at = 0
         self._told_empty: dict[tuple[int, int], int] = {}
-        self.seconds = 0.0
+
+    @property
+    def publishers(self) -> int:
+        """How many are declared for regions."""
+        return self._watch.publishers
 
     @property
     def declared(self) -> tuple[zenoh.Publisher, ...]:
@@ -68,7 +71,6 @@ class RegionPublisher:
         """Publish what is due in the state that `world` is in. Never blocks, and raises nothing but bugs."""
         if world.tick % self._every:
             return
-        began = time.perf_counter()
         turn = world.tick // self._every
         self._tell_holding(world, turn)
         watched = self._watch.looked_at()
@@ -78,7 +80,6 @@ class RegionPublisher:
         if self._told_empty:
             here = {(one.pace, one.node) for one in watched}
             self._told_empty = {key: at for key, at in self._told_empty.items() if key in here}
-        self.seconds += time.perf_counter() - began
 
     def _tell(self, world: World, due: list[Watched], turn: int) -> None:
         nodes = sorted({one.node for one in due})

@@ -75,12 +75,9 @@ def test_told_of_everything_once_it_runs_like_the_whole_world(contacts):
 def test_what_it_ends_up_with_does_not_depend_on_when_it_was_told():
     source = gas()
     followed = frozenset({0, 1, 2, 3, 6, 12})
+    prompt, late, at_once = (source.known(followed) for _ in range(3))
     told = source.run(60, followed)
     shuffled = random.Random(5).sample(told, len(told))
-    prompt, late, at_once = source.known(), source.known(), source.known()
-    for known in (prompt, late, at_once):
-        known._begin(0)
-        known.follow(followed)
     for tick in range(61):
         prompt.advance(tick)
         for one in told:
