@@ -11,7 +11,7 @@ import pytest
 import zenoh
 
 import kuglice as kg
-from e2e.processes import Command, until
+from e2e.processes import Command, free_endpoint, until
 from e2e.raw_client import RawClient
 from kuglice.protocol import Keys, Region, encode
 from kuglice_client.view import View, ViewSettings
@@ -201,3 +201,18 @@ def test_a_rectangle_that_is_none_is_refused(start, wrong):
     view = start("view", wrong)
     assert view.wait() == 2
     assert "view" in view.err
+
+
+def test_through_a_router_it_is_the_same(start, scene, endpoint, server, tmp_path):
+    door = free_endpoint()
+    router = start("router", "--connect", endpoint, "--listen", door)
+    until(lambda: "router from" in router.err, what="the router is there")
+    with RawClient(endpoint, WORLD, None) as other:
+        assert other.status().counters.get("regions out", 0) == 0
+        with View(ViewSettings(VIEW, connect=(door,), wait=30.0)) as view:
+            tick = whole_tick(view)
+            view.run(seconds=0.5)
+        until(lambda: _silent(other), what="silence when nobody looks")
+    server.signal(2)
+    server.figures()
+    assert_is_a_part(view, tick, tmp_path / "run.kuglice")
