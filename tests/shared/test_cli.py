@@ -50,7 +50,7 @@ def test_help_lists_first_what_comes_first_and_cuts_no_sentence():
     _, listed = kuglice("--help").stdout.split("Commands:\n")
     named = [line.split()[0] for line in listed.splitlines()]
     assert named[:8] == ["demo", "scenes", "plan", "render", "server", "client", "view", "router"]
-    assert named[8:12] == ["replay", "chart", "bench", "proxy"]
+    assert named[8:13] == ["replay", "study", "chart", "bench", "proxy"]
     for line in listed.splitlines():
         assert line.endswith("."), line
         assert not line.endswith(".."), line

@@ -38,9 +38,10 @@ def study(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="The same figures as JSON.")] = False,
 ) -> None:
-    """Compare what a client drew with what the server's world was at that tick, second by second.
+    """Compare what a client drew with the server's world.
 
-    Errors are in radii, corrections that glide included. Ends with code 2 if the file is no study or damaged.
+    Tick by tick, told second by second. Errors are in radii, corrections that glide included. Ends with code 2 if the
+    file is no study or damaged.
     """
     seen = Study.load(file)
     frames = list(seen.frames())
