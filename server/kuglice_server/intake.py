@@ -7,8 +7,8 @@ Every input has a defined answer:
 - reordered: one client's inputs act in the order of their sequence numbers, which is kept by taking a number only
   once and never after a higher one: it is refused, since its turn is over;
 - too early (beyond `horizon` ticks), or beyond the scene's limits: refused, with the reason;
-- duplicate: never applied twice; acknowledged again once the tick messages that told of it are over; older than what
-  is remembered: refused;
+- duplicate: never applied twice; acknowledged again if its client has heard of the tick that it acted in and asks all
+  the same; older than what is remembered: refused;
 - impossible (a spawn where there is no room, or a tick that cannot be made with it): refused when its tick comes, by
   the tick loop, even if it was promised;
 - more than `limits.per_tick` in one tick: the rest waits for the next, in order;
@@ -60,7 +60,6 @@ class Intake:
         self._new_acks: list[Ack] = []
         self._acks: deque[tuple[int, list[Ack]]] = deque()
         self._acting: dict[int, list[Ack]] = {}
-        self._told_before = 0
 
     def receive(self, key: str, payload: bytes, *, world: World) -> None:
         """One message from the wire; `world` is the state that its tick will begin with. Raises nothing."""
@@ -88,7 +87,7 @@ class Intake:
             return
         player.heard = max(player.heard or 0, min(message.heard, world.tick))
         for sent in message.inputs:
-            self._take(player, sent, world)
+            self._take(player, sent, world, heard=message.heard)
 
     def due(self, tick: int) -> list[Input]:
         """Inputs that act in `tick`, which is not asked for again."""
@@ -122,14 +121,13 @@ class Intake:
             self._new_acks = []
         while self._acks and self._acks[0][0] <= tick - repeat:
             self._acks.popleft()
-        self._told_before = tick - repeat
         acting = self._acting.pop(tick, [])
         return [ack for _, acks in self._acks for ack in acks][-MAX_ACKS:] + acting
 
-    def _take(self, player: Player, sent: SentInput, world: World) -> None:
+    def _take(self, player: Player, sent: SentInput, world: World, *, heard: int) -> None:
         early = sent.tick - world.tick
         if sent.given.sequence <= player.sequence:
-            self._again(player, sent.given.sequence, world.tick, early)
+            self._again(player, sent.given.sequence, world.tick, early, heard=heard)
             return
         player.sequence = sent.given.sequence
         try:
@@ -173,14 +171,14 @@ class Intake:
             raise InputError(f"tick {tick}: at most {self._horizon} ticks after {now}, the next one, allowed")
         return tick
 
-    def _again(self, player: Player, sequence: int, now: int, early: int) -> None:
+    def _again(self, player: Player, sequence: int, now: int, early: int, *, heard: int) -> None:
         self._counters["duplicate"] += 1
         known = player.outcomes.get(sequence)
         if known is None:
             reason = f"sequence {sequence}: {player.sequence} came before; its outcome is not remembered"
             known = Ack(player.number, sequence, None, early, reason)
-        if known.tick is not None and self._told_before < known.tick <= now + SOON:
-            # The stream is telling of it right now, or about to.
+        if known.tick is not None and heard <= known.tick <= now + SOON:
+            # The stream tells of it, and is just on its way to the client, or about to be.
             return
         if known not in self._new_acks and not any(known in acks for _, acks in self._acks):
             self._new_acks.append(known)
