@@ -8,12 +8,13 @@ from typing import Any
 import zenoh
 
 from kuglice.errors import JoinError, ProtocolError
-from kuglice.protocol import Assembly, Message, Part, Refusal, Whole, decode, encode
+from kuglice.protocol import Assembly, Message, Part, Refusal, Whole, decode, decompress, encode
 from kuglice_client.traffic import Traffic
 
 __all__ = ["Asked"]
 
 MAX_REPLIES = 4096
+MAX_WHOLE_BYTES = 256 << 20
 POLL_SECONDS = 0.001
 
 
@@ -87,7 +88,7 @@ class Asked:
             for reply in replies:
                 whole = assembly.add(decode(reply, Part))
                 if whole is not None:
-                    return whole
+                    return whole._replace(data=decompress(whole.data, max_bytes=MAX_WHOLE_BYTES))
         except ProtocolError as error:
             raise JoinError(f"{self._key}: {error}") from error
         raise JoinError(f"{self._key}: {len(replies)} parts came, and some are missing")

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from kuglice import Model, Scene, World, _core
 from kuglice.errors import JoinError, KugliceError, ProtocolError
-from kuglice.protocol import ANY_STATUS, About, Keys, SnapshotRequest, Status, decode
+from kuglice.protocol import ANY_EPOCH, ANY_STATUS, About, Keys, SnapshotRequest, Status, decode
 from kuglice_client.link import Link
 
 __all__ = ["Joined", "find_world", "join"]
@@ -21,6 +21,8 @@ __all__ = ["Joined", "find_world", "join"]
 log = logging.getLogger(__name__)
 
 RETRY_SECONDS = 0.03
+SNAPSHOT_SECONDS = 30.0
+"""For a state to arrive: a large one takes its time on a thin link."""
 
 Who = tuple[str, str]
 """Name and session."""
@@ -91,8 +93,13 @@ def _attempt(
     stop: threading.Event,
 ) -> Joined:
     asked_at = time.monotonic()
+    asked_about = link.ask(keys.about, None)
+    # At once and not in turn: on a long way every question costs a round trip, and a state takes several.
+    asked_snapshot = link.ask(
+        keys.history, SnapshotRequest(epoch=ANY_EPOCH, at=None), timeout=SNAPSHOT_SECONDS
+    )
     try:
-        about = decode(link.ask(keys.about, None).wait_whole(stop).data, About)
+        about = decode(asked_about.wait_whole(stop).data, About)
     except JoinError as error:
         raise _NotYetError(str(error)) from error
     except ProtocolError as error:
@@ -107,12 +114,11 @@ def _attempt(
     if who is not None:
         number, sequence = _number(link, keys, who, deadline=deadline, stop=stop)
     try:
-        asked_at = time.monotonic()
-        snapshot = link.ask(keys.history, SnapshotRequest(epoch=about.epoch, at=None)).wait_whole(stop)
-        # Both took at least that long; one may have waited for something that was lost.
-        round_trip = min(round_trip, time.monotonic() - asked_at)
+        snapshot = asked_snapshot.wait_whole(stop)
     except JoinError as error:
         raise _NotYetError(str(error)) from error
+    if snapshot.epoch != about.epoch:
+        raise _NotYetError(f"epoch {about.epoch} is over, {snapshot.epoch} has begun")
     try:
         scene = Scene.from_message(about.scene)
         model = Model.from_message(about.model)

@@ -10,6 +10,7 @@ import zenoh
 
 from kuglice.errors import KugliceError, ProtocolError
 from kuglice.protocol import (
+    ANY_EPOCH,
     About,
     Declared,
     History,
@@ -20,6 +21,7 @@ from kuglice.protocol import (
     Status,
     TickRange,
     ViewAbout,
+    compress,
     decode,
     encode,
     split,
@@ -86,7 +88,7 @@ class Answers:
 
     def _answer_about(self, query: zenoh.Query) -> Iterator[Message]:
         about = self._about()
-        yield from split(encode(about), of="about", epoch=self._epoch, tick=about.tick)
+        yield from split(compress(encode(about)), of="about", epoch=self._epoch, tick=about.tick)
 
     def _answer_view(self, query: zenoh.Query) -> Iterator[Message]:
         yield self._view()
@@ -99,7 +101,8 @@ class Answers:
         if payload is None:
             raise ProtocolError("history: a query needs a payload that says which ticks or which snapshot")
         request = decode(payload.to_bytes(), TickRange, SnapshotRequest)
-        if request.epoch != self._epoch:
+        whichever = isinstance(request, SnapshotRequest) and request.epoch == ANY_EPOCH
+        if request.epoch != self._epoch and not whichever:
             raise ProtocolError(f"epoch {request.epoch}: this server runs epoch {self._epoch}")
         about = self._about()
         if isinstance(request, TickRange):
@@ -107,9 +110,10 @@ class Answers:
             if not ticks:
                 raise ProtocolError(f"ticks {request.first} to {request.end - 1}: not kept, or not yet run")
             stretch = History.of(self._epoch, ticks, hash_every=about.hash_every)
-            yield from split(encode(stretch), of="history", epoch=self._epoch, tick=ticks[0].tick)
+            yield from split(compress(encode(stretch)), of="history", epoch=self._epoch, tick=ticks[0].tick)
         elif isinstance(request, SnapshotRequest):
             kept = self._history.snapshot(request.at)
             if kept is None:
                 raise ProtocolError(f"snapshot at or before {request.at}: not kept")
-            yield from split(kept.data, of="snapshot", epoch=self._epoch, tick=kept.tick)
+            data = compress(kept.data, numbers=True)
+            yield from split(data, of="snapshot", epoch=self._epoch, tick=kept.tick)

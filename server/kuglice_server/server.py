@@ -110,7 +110,8 @@ class Server:
             1 if self.world.count <= HASHED_BALLS else max(1, round(self.rate))
         )
         self._scene = scene
-        self._scene_message = scene.to_message()
+        # Who joins gets the balls of today, by a snapshot or region by region, and has no use for those of the start.
+        self._ruled_scene_message = {**scene.to_message(), "balls": Balls.none().to_message()}
         self._lock = threading.Lock()
         self._players = Players(scene, grace=round(settings.grace * self.rate))
         intake = Intake(
@@ -129,7 +130,6 @@ class Server:
         region_every = max(1, round(self.rate / settings.region_rate))
         self._terms = choose_terms(self.world, rate=self.rate / region_every)
         self._reference_speed = reference_speed(scene)
-        self._view_scene_message = {**self._scene_message, "balls": Balls.none().to_message()}
         self._regions = RegionPublisher(
             self._session,
             keys,
@@ -215,7 +215,7 @@ class Server:
             world=self.settings.world,
             version=__version__,
             step_version=_core.STEP_VERSION,
-            scene=self._scene_message,
+            scene=self._ruled_scene_message,
             model=self.world.model.to_message(),
             rate=self.rate,
             snapshot_every=self._snapshot_every,
@@ -231,7 +231,7 @@ class Server:
             world=self.settings.world,
             version=__version__,
             step_version=_core.STEP_VERSION,
-            scene=self._view_scene_message,
+            scene=self._ruled_scene_message,
             model=self.world.model.to_message(),
             rate=self.rate,
             tick=self._now,

@@ -192,7 +192,8 @@ def _film_settings(path: Path | None, look: _Look) -> FilmSettings | None:
 def _film(playing: Client, settings: FilmSettings) -> Film:
     from kuglice_client.filming import Film  # noqa: PLC0415 - few clients film
 
-    return Film(playing.joined.scene, replace(settings, own=playing.joined.number))
+    settings = replace(settings, own=playing.joined.number)
+    return Film(playing.joined.scene, settings, balls=playing.confirmed.count)
 
 
 def _shower(film: Film | None, look: _Look, line: Status) -> Callable[[Client, float], None]:

@@ -5,10 +5,12 @@ Server and client both speak through this package and through nothing else.
 
 from kuglice.protocol.codec import decode, encode
 from kuglice.protocol.compact import packed_size
+from kuglice.protocol.compression import compress, decompress
 from kuglice.protocol.endpoints import DEFAULT_ENDPOINT, is_loopback, wants_datagrams
 from kuglice.protocol.exposure import refuse_exposed
 from kuglice.protocol.keys import ANY_STATUS, Keys, check_name
 from kuglice.protocol.messages import (
+    ANY_EPOCH,
     MAX_INPUTS,
     MAX_REGION_BALLS,
     MAX_TOLD_TICKS,
@@ -49,6 +51,7 @@ from kuglice.protocol.session import (
 )
 
 __all__ = [
+    "ANY_EPOCH",
     "ANY_STATUS",
     "DEFAULT_ENDPOINT",
     "LEASE_MS",
@@ -87,7 +90,9 @@ __all__ = [
     "check_name",
     "client_configuration",
     "close_session",
+    "compress",
     "decode",
+    "decompress",
     "encode",
     "is_loopback",
     "open_links",

@@ -11,7 +11,9 @@ from pydantic import model_validator
 
 from kuglice.protocol.messages.envelope import Message, TickNumber
 
-__all__ = ["SnapshotRequest", "TickRange"]
+__all__ = ["ANY_EPOCH", "SnapshotRequest", "TickRange"]
+
+ANY_EPOCH = 0
 
 
 class TickRange(Message):
@@ -31,7 +33,10 @@ class TickRange(Message):
 
 
 class SnapshotRequest(Message):
-    """Asks for the newest snapshot whose tick is `at` or before (None: the newest)."""
+    """Asks for the newest snapshot whose tick is `at` or before (None: the newest).
+
+    One who joins asks before it knows the epoch: ANY_EPOCH is answered by whichever run this is.
+    """
 
     kind: ClassVar[str] = "snapshot?"
     max_bytes: ClassVar[int] = 512
