@@ -71,7 +71,12 @@ class RegionPublisher:
         """Publish what is due in the state that `world` is in. Never blocks, and raises nothing but bugs."""
         if world.tick % self._every:
             return
-        turn = world.tick // self._every
+        try:
+            self._publish(world, world.tick // self._every)
+        except zenoh.ZError as error:
+            self._not_published(error)
+
+    def _publish(self, world: World, turn: int) -> None:
         self._tell_holding(world, turn)
         watched = self._watch.looked_at()
         due = [one for one in watched if (turn + one.node) % (1 << one.pace) == 0]
@@ -133,9 +138,12 @@ class RegionPublisher:
         try:
             publisher.put(data)
         except zenoh.ZError as error:
-            if not self._counters["unpublished"]:
-                log.error("a region cannot be published: %s", error)
-            self._counters["unpublished"] += 1
+            self._not_published(error)
             return
         self._counters["regions out"] += 1
         self._counters["region bytes out"] += len(data)
+
+    def _not_published(self, error: zenoh.ZError) -> None:
+        if not self._counters["unpublished"]:
+            log.error("a region cannot be published: %s", error)
+        self._counters["unpublished"] += 1

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 from pydantic import BaseModel, ConfigDict, Field
 
 from kuglice import _core
-from kuglice.protocol.messages.envelope import Message, TickNumber
+from kuglice.protocol.messages.about import AboutWorld
 from kuglice.protocol.nodes import Rectangle
 
 __all__ = ["PACES", "RegionTerms", "ViewAbout"]
@@ -47,22 +47,16 @@ class RegionTerms(BaseModel):
         )
 
 
-class ViewAbout(Message):
-    """As About, but of a size that does not grow with the balls: `scene` has none, `balls` says how many play.
+class ViewAbout(AboutWorld):
+    """For those who look at a part: its size does not grow with the balls.
 
-    `rate` is in ticks per second of wall clock; `reference_speed` is the scene's, so that pictures agree.
+    `scene` has none of them, `balls` says how many play; `reference_speed` is the scene's, so that pictures
+    agree.
     """
 
     kind: ClassVar[str] = "view about"
     max_bytes: ClassVar[int] = 1 << 20
 
-    world: str
-    version: str
-    step_version: int
-    scene: dict[str, Any]
-    model: dict[str, Any]
-    rate: Annotated[float, Field(gt=0, le=10_000)]
-    tick: TickNumber
     balls: Annotated[int, Field(ge=0)]
     reference_speed: Positive
     regions: RegionTerms
