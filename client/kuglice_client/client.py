@@ -220,7 +220,10 @@ class Client:
         self.joined = joined
         self.follower = Follower(joined.world)
         self.reconciler = Reconciler(
-            self.follower, snapshot_every=about.snapshot_every if self.settings.check_snapshots else None
+            self.follower,
+            snapshot_every=about.snapshot_every if self.settings.check_snapshots else None,
+            reports=self.settings.desync_reports,
+            step_version=about.step_version,
         )
         self.prediction = Prediction(joined.world, limit=max(4, round(PREDICTED_SECONDS * about.rate)))
         self.clock = Clock(

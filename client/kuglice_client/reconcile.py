@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import logging
 from collections import OrderedDict
+from pathlib import Path
 
-from kuglice import World
+from kuglice import World, _core
 from kuglice.errors import SnapshotError
 from kuglice.protocol import Whole
 from kuglice_client.desync import Desync, compare_worlds
+from kuglice_client.desync_report import write_report
 from kuglice_client.follow import Confirmed, Follower
 
 __all__ = ["Reconciler"]
@@ -24,12 +26,21 @@ class Reconciler:
     """Compares; on a mismatch takes the server's state, counts, and reports.
 
     `snapshot_every`: ticks between the server's snapshots, whose states are kept here for comparison; None: none come
-    but those that are asked for.
+    but those that are asked for. `reports`: a directory that gets a file per desync; `step_version` is the server's.
     """
 
-    def __init__(self, follower: Follower, *, snapshot_every: int | None) -> None:
+    def __init__(
+        self,
+        follower: Follower,
+        *,
+        snapshot_every: int | None,
+        reports: Path | None = None,
+        step_version: int = _core.STEP_VERSION,
+    ) -> None:
         self._follower = follower
         self._every = snapshot_every
+        self._reports = reports
+        self._step_version = step_version
         self._states: OrderedDict[int, bytes] = OrderedDict()
         self._waiting: OrderedDict[int, Whole] = OrderedDict()
         self._wrong: World | None = None
@@ -119,13 +130,18 @@ class Reconciler:
             and self._follower.rerun(rerun, self._wrong.tick)
             and rerun.tick == self._wrong.tick
         ):
-            desync = compare_worlds(self._wrong, rerun, found_by="hash")
+            found = self._wrong, rerun, "hash"
         elif ours not in (None, theirs.snapshot()):
-            desync = compare_worlds(
-                World.restore(theirs.scene, ours, theirs.model), theirs, found_by="snapshot"
-            )
+            found = World.restore(theirs.scene, ours, theirs.model), theirs, "snapshot"
         else:
             return
-        if len(self.desyncs) < LOGGED_DESYNCS:
-            self.desyncs.append(desync)
-            log.error("%s", desync)
+        if len(self.desyncs) >= LOGGED_DESYNCS:
+            return
+        mine, right, found_by = found
+        desync = compare_worlds(mine, right, found_by=found_by)
+        self.desyncs.append(desync)
+        log.error("%s", desync)
+        if self._reports is not None:
+            write_report(
+                self._reports, mine, right, found_by=found_by, theirs_step_version=self._step_version
+            )

@@ -24,7 +24,8 @@ class ClientSettings:
     the effect, for those who prefer fewer corrections of others to acting at once. `exact_inputs`: send every
     bit of a force instead of two bytes per number (kuglice.inputs.rounded). `check_snapshots`: compare the
     server's published snapshots too, byte by byte; hashes are compared anyway, and snapshots cost most of the
-    traffic. `study`: where to record what is seen, acted and confirmed (kuglice.study).
+    traffic. `desync_reports`: a directory that gets a file per desync. `study`: where to record what is seen,
+    acted and confirmed (kuglice.study).
     """
 
     connect: tuple[str, ...] = (DEFAULT_ENDPOINT,)
@@ -36,6 +37,7 @@ class ClientSettings:
     input_delay: int = 0
     exact_inputs: bool = False
     check_snapshots: bool = False
+    desync_reports: Path | None = None
     study: Path | None = None
 
     def __post_init__(self) -> None:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import json
+import struct
 import time
 
 from e2e.processes import until
 from e2e.verdict import assert_all_equal
+from kuglice import _core
 from kuglice.inputs import Kick
 from kuglice.protocol import MAX_TOLD_TICKS
 from kuglice.replay import Replay
@@ -36,8 +39,9 @@ def test_a_long_silence_is_filled_from_history(server, endpoint, tmp_path):
     assert_all_equal(tmp_path / "run.kuglice", [summary])
 
 
-def test_a_world_that_went_wrong_is_found_out_reported_and_replaced(server, endpoint):
-    with Client(ClientSettings(connect=(endpoint,), name="ana")) as client:
+def test_a_world_that_went_wrong_is_found_out_reported_and_replaced(server, endpoint, tmp_path, caplog):
+    reports = tmp_path / "reports"
+    with Client(ClientSettings(connect=(endpoint,), name="ana", desync_reports=reports)) as client:
         playing(client, lambda: client.confirmed.tick > 30)
         # A bit that flips in memory, say: here, a kick that only this client's confirmed world gets.
         flipped, tick = client.confirmed.clone(), client.confirmed.tick
@@ -62,6 +66,17 @@ def test_a_world_that_went_wrong_is_found_out_reported_and_replaced(server, endp
     assert wrong.desyncs[0].found_by == "hash"
     assert wrong.desyncs[0].tick == first_wrong
     assert any("ball 3:" in line for line in wrong.desyncs[0].balls)
+    path = reports / f"desync-{first_wrong}.json"
+    assert str(path) in caplog.text
+    report = json.loads(path.read_text())
+    assert (report["first_tick"], report["found_by"]) == (first_wrong, "hash")
+    assert report["step_version"] == {"here": _core.STEP_VERSION, "there": _core.STEP_VERSION}
+    assert report["state_hash"]["here"] != report["state_hash"]["there"]
+    assert report["differing"] == len(report["balls"]) == wrong.desyncs[0].differing
+    (ball,) = [ball for ball in report["balls"] if ball["id"] == 3]
+    bits = ball["bits"]["vx"]
+    here, there = (struct.unpack(">d", bytes.fromhex(bits[side]))[0] for side in ("here", "there"))
+    assert here != there
     server.signal(2)
     assert server.wait() == 0
 

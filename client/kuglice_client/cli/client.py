@@ -91,6 +91,12 @@ def client(
             help="Record what is seen, acted and confirmed, for `kuglice study`: up to 1 GB an hour."
         ),
     ] = None,
+    desync_reports: Annotated[
+        Path | None,
+        typer.Option(
+            help="Write a JSON file per desync into this directory: first tick, balls, all differing bits."
+        ),
+    ] = None,
     summary_json: Annotated[
         Path | None, typer.Option(help="Write the closing figures to this file too.")
     ] = None,
@@ -116,6 +122,7 @@ def client(
         input_delay=input_delay,
         study=study,
         check_snapshots=check_snapshots,
+        desync_reports=desync_reports,
     )
     look = _Look(fps, _pixels(size), style, tuple(overlay or ("tick",)), trails, still_every)
     film_settings = _film_settings(render, look)
