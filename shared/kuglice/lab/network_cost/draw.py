@@ -1,99 +1,110 @@
-"""Two panels: what one sees, and what it takes."""
+"""Four panels: what one sees and what it takes, against round trip and against the rate of updates."""
 
 from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import NamedTuple
 
 from matplotlib.axes import Axes
 
 from kuglice.lab.figures.labels import Label, write_labels
 from kuglice.lab.figures.look import PALE, Figure
 from kuglice.lab.figures.sheet import sheet
-from kuglice.lab.network_cost.measure import PLAYED
+from kuglice.lab.network_cost.measure import PLAYED, VIEWED
 from kuglice.lab.rows import Rows, where
 
 __all__ = ["draw"]
 
-COLOUR = {"arena": "#d55e00", "arena, one acts": "#0072b2"}
-SAID = {"arena": "four act", "arena, one acts": "one acts"}
+COLOUR = dict(zip((*PLAYED, *VIEWED), ("#d55e00", "#0072b2", "#009e73", "#cc79a7"), strict=True))
+SAID = {"arena": "four act", "arena, one acts": "one acts", "gas:n=1000": "gas", "rain:n=1000": "rain"}
 SMALLEST_RADII = 1e-4
 TARGET_RADII = 0.05
 """Below it lies the mean where nobody else acts: the bar of this house."""
+KBIT = 0.008
+
+
+class Curve(NamedTuple):
+    """A column of rows, what it is called, and how it is drawn."""
+
+    column: str
+    name: str
+    style: str
+    scale: float = 1.0
+    floor: float = 0.0
 
 
 def draw(rows: Rows) -> Figure:
-    """One colour per game."""
-    link = next((str(row["link"]) for row in rows), "link")
+    """One colour per scene."""
+    games, views = where(rows, varied="round_trip"), where(rows, varied="region_rate")
+    link = next((str(row["link"]) for row in games), "link")
     figure, panels = sheet(
         "What distance costs",
-        f"An arena of 20 balls at 60 ticks per second over a {link}, datagrams beside tcp, 2 % of the packets lost each"
-        " way, 20 % jitter. Left: how far balls are drawn from where they are, while corrections glide; solid the mean"
-        " over balls and frames, dashed the worst; none at all is drawn as 0.0001. Right: payload per client.",
-        rows=1,
+        f"Above: players in an arena over a {link}, 60 ticks per second, datagrams beside tcp, 2 % of the packets"
+        " lost each way, 20 % jitter; how far balls are drawn from where they are (none: 0.0001). Below: views of"
+        " about 1,000 balls; how far off a ball was predicted when it is told again.",
+        rows=2,
         columns=2,
-        height=7.4,
+        height=12.2,
     )
-    varied = where(rows, varied="round_trip")
-    _errors(panels[0], varied)
-    _bytes(panels[1], varied)
-    for panel in panels:
+    seen = [
+        Curve(f"visible_{what}_radii", what, style, floor=SMALLEST_RADII)
+        for what, style in (("mean", "-"), ("worst", "--"))
+    ]
+    sent = [Curve(f"payload_{way}", way, style, scale=KBIT) for way, style in (("down", "-"), ("up", "--"))]
+    predicted = [
+        Curve(f"prediction_error_{what}_radii", what, style) for what, style in (("mean", "-"), ("p99", "--"))
+    ]
+    told = [Curve("view_bytes_per_second", "", "-", scale=KBIT)]
+    panels[0].axhline(TARGET_RADII, color=PALE, linewidth=1.0, linestyle=":")
+    for panel, title, quantity, curves in (
+        (panels[0], "A player sees", "Visible correction, in radii", seen),
+        (panels[1], "A player takes", "kbit per second", sent),
+    ):
+        _panel(panel, title, quantity, _drawn(panel, games, "round_trip_ms", PLAYED, curves))
         panel.set_xlabel("Round trip, ms")
-        low, high = panel.get_xlim()
-        panel.set_xlim(low, high + 0.35 * (high - low))
-        panel.set_xticks(sorted({float(row["round_trip_ms"]) for row in varied}))
+    for panel, title, quantity, curves in (
+        (panels[2], "A view sees", "Error of prediction, in radii", predicted),
+        (panels[3], "A view takes", "kbit per second", told),
+    ):
+        panel.set_xscale("log")
+        _panel(panel, title, quantity, _drawn(panel, views, "region_rate", VIEWED, curves))
+        panel.set_xlabel("Updates per second")
     return figure
 
 
-def _errors(axes: Axes, rows: Rows) -> None:
-    axes.set_title("What is seen")
-    axes.set_yscale("log")
-    axes.set_ylabel("Visible correction, in radii")
-    axes.axhline(TARGET_RADII, color=PALE, linewidth=1.0, linestyle=":")
+def _drawn(axes: Axes, rows: Rows, along: str, scenes: Iterable[str], curves: Iterable[Curve]) -> list[Label]:
+    """Draw a curve per scene and column; their names, at the ends."""
     labels = []
-    for name in PLAYED:
-        for what, style in (("mean", "-"), ("worst", "--")):
-            labels += _curve(
-                axes,
-                rows,
-                name,
-                f"visible_{what}_radii",
-                f"{SAID[name]}, {what}",
-                style=style,
-                floor=SMALLEST_RADII,
+    for scene in scenes:
+        for curve in curves:
+            points = sorted(
+                (float(row[along]), max(float(value) * curve.scale, curve.floor))
+                for row in where(rows, scene=scene)
+                if (value := row.get(curve.column, "")) != ""
             )
-    write_labels(axes, labels)
-
-
-def _bytes(axes: Axes, rows: Rows) -> None:
-    axes.set_title("What it takes")
-    axes.set_ylabel("kbit per second and client")
-    labels = []
-    for name in PLAYED:
-        for way, style in (("down", "-"), ("up", "--")):
-            labels += _curve(
-                axes, rows, name, f"payload_{way}", f"{SAID[name]}, {way}", style=style, scale=0.008
+            if not points:
+                continue
+            x, y = zip(*points, strict=True)
+            axes.plot(
+                x, y, curve.style, marker="o", color=COLOUR[scene], markeredgecolor="white", markersize=6
             )
-    axes.set_ylim(bottom=0.0)
+            name = ", ".join(part for part in (SAID[scene], curve.name) if part)
+            labels.append(Label(name, x[-1], y[-1], COLOUR[scene]))
+    # Ticks where something was measured.
+    ticks = sorted({float(row[along]) for row in rows})
+    axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+    axes.xaxis.minorticks_off()
+    return labels
+
+
+def _panel(axes: Axes, title: str, quantity: str, labels: list[Label]) -> None:
+    axes.set_title(title)
+    axes.set_ylabel(quantity)
+    if "radii" in quantity:
+        axes.set_yscale("log")
+    else:
+        axes.set_ylim(bottom=0.0)
+    low, high = axes.get_xlim()
+    logarithmic = axes.get_xscale() == "log"
+    axes.set_xlim(low, high * (high / low) ** 0.35 if logarithmic else high + 0.35 * (high - low))
     write_labels(axes, labels)
-
-
-def _curve(
-    axes: Axes,
-    rows: Rows,
-    name: str,
-    column: str,
-    text: str,
-    *,
-    style: str,
-    scale: float = 1.0,
-    floor: float = 0.0,
-) -> list[Label]:
-    points = sorted(
-        (float(row["round_trip_ms"]), float(value) * scale)
-        for row in where(rows, scene=name)
-        if (value := row.get(column, "")) != ""
-    )
-    if not points:
-        return []
-    x, y = zip(*points, strict=True)
-    y = tuple(max(value, floor) for value in y)
-    axes.plot(x, y, style, marker="o", color=COLOUR[name], markeredgecolor="white", markersize=6)
-    return [Label(text, x[-1], y[-1], COLOUR[name])]

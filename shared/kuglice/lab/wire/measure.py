@@ -32,7 +32,7 @@ from kuglice.protocol import (
     open_session,
 )
 
-__all__ = ["SCENES", "jobs"]
+__all__ = ["SCENES", "jobs", "measured"]
 
 SCENES = (
     "gas:n=100",
@@ -51,16 +51,18 @@ ANSWER_SECONDS = 60.0
 
 def jobs(*, scenes: Sequence[str], seconds: float, threads: int) -> list[Job]:
     """One per scene."""
-    return [Job(scene, partial(_measure, scene, seconds, threads)) for scene in scenes]
+    return [Job(scene, partial(measured, scene, seconds, threads=threads)) for scene in scenes]
 
 
-def _measure(scene: str, seconds: float, threads: int) -> Rows:
+def measured(scene: str, seconds: float, *, threads: int = 1, region_rate: float | None = None) -> Rows:
+    """One row; `region_rate`: updates per second, None for the server's default. Raises NetworkError."""
     processes: list[CommandProcess] = []
     endpoint = f"tcp/127.0.0.1:{free_port()}"
     with tempfile.TemporaryDirectory() as folder:
         try:
             words = ["server", scene, "--world", WORLD, "--listen", endpoint, "--threads", threads]
-            server = CommandProcess(Path(folder), "server", words)
+            rate = [] if region_rate is None else ["--region-rate", region_rate]
+            server = CommandProcess(Path(folder), "server", [*words, *rate])
             processes.append(server)
             server.wait_for_words("balls on", START_SECONDS)
             session = open_session(client_configuration([endpoint], timeout=5.0))
