@@ -309,6 +309,7 @@ class Client:
             self._answered(history.acting(self.outbox.number), self.outbox)
         if now - self._heard_at > self._silence:
             self.clock.heard(history.end, now)
+            self.screen.feel.heard(now)
 
     def _answered(self, outcomes: Iterable[Ack], outbox: Outbox) -> None:
         for ack in outcomes:

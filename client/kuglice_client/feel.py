@@ -26,11 +26,13 @@ class Feel:
     """Of one client, over all runs of the server that it lives through. Times are in seconds.
 
     `recovery`: for each silence of a second or more, from the first message after it until the confirmed
-    world had done all that the stream told.
+    world had done all that the stream told; `recovered_at`: when that was. Who knows when the link was back, as a
+    bench does, can tell how long all of it took.
     """
 
     inputs: int = 0
     recovery: list[float] = field(default_factory=list)
+    recovered_at: list[float] = field(default_factory=list)
     _frame: int = 0
     _unseen: deque[_Unseen] = field(default_factory=deque)
     _delays: deque[float] = field(default_factory=lambda: deque(maxlen=KEPT_INPUTS))
@@ -64,6 +66,7 @@ class Feel:
         """The confirmed world has done everything that the stream told."""
         if self._back_at is not None:
             self.recovery.append(at - self._back_at)
+            self.recovered_at.append(at)
             self._back_at = None
 
     def entered(self) -> None:

@@ -70,7 +70,6 @@ def summarise(client: Client, *, seconds: float) -> dict[str, Any]:
         "bytes_per_second_sent": rates["sent"],
         "bytes_joining": traffic.received["joining"],
         "feel": _feel(client, summed, seconds),
-        "traffic": {"payload_down": rates["received"], "payload_up": rates["sent"]},
     }
 
 
@@ -91,9 +90,8 @@ def _feel(client: Client, summed: dict[str, Figure], seconds: float) -> dict[str
             "worst": correction.worst,
             "snapped_balls": correction.snaps,
         },
-        "lead_ticks": clock.lead,
         "round_trip_ms": 1000 * clock.round_trip,
         "jitter_ms": 1000 * clock.jitter,
-        "join_seconds": client.joined_after,
-        "recovery_seconds": max(feel.recovery) if feel.recovery else None,
+        "catching_up_seconds": max(feel.recovery) if feel.recovery else None,
+        "recovered_at_monotonic": feel.recovered_at,
     }

@@ -52,6 +52,7 @@ def test_recovery_is_from_the_first_message_after_a_silence_until_all_that_was_t
     feel.caught_up(5.2)
     feel.caught_up(5.3)
     assert feel.recovery == [pytest.approx(0.2)]
+    assert feel.recovered_at == [5.2]
 
 
 def test_a_pause_shorter_than_a_silence_is_none():

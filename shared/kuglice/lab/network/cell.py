@@ -46,8 +46,9 @@ class Cell:
     def measure(self) -> list[Row]:
         """Its row; per client where that makes sense. Raises KugliceError.
 
-        `recovery_seconds`: from the return of the link to the tick in which the last of the acting clients acts
-        again in the server's world (empty: not within AFTER_CUT_SECONDS).
+        `recovery_seconds`: from the return of the link until the last client's confirmed world has all that the
+        stream told (empty: not within AFTER_CUT_SECONDS). `acting_again_seconds`: until the last of the acting
+        clients acts again in the server's world; bots say nothing while what they hold need not change.
         """
         with tempfile.TemporaryDirectory() as folder, open_link(self.conditions, self.link) as link:
             row: dict[str, Value] = {
@@ -89,16 +90,27 @@ class Cell:
             game.play(SETTLE_SECONDS)
             link.cut(CUT_SECONDS)
             game.play(CUT_SECONDS)
-            returned = game.recorded_ticks()
+            returned, returned_at = game.recorded_ticks(), time.monotonic()
             game.play(AFTER_CUT_SECONDS)
             outcome = game.finish()
             acted = game.first_input_after(returned)
         rate = self.subject.scene.tick_rate
         return {
-            "recovery_seconds": "" if acted is None else (acted - returned) / rate,
+            "recovery_seconds": _recovery(outcome, returned_at),
+            "acting_again_seconds": "" if acted is None else (acted - returned) / rate,
             "desyncs_after_cut": sum(_desyncs(client) for client in outcome.clients.values()),
             "hashes_equal_after_cut": int(outcome.hashes_equal),
         }
+
+
+def _recovery(outcome: Outcome, returned_at: float) -> Value:
+    """Seconds until the last client had all that was told; "" if one never had. One machine, one monotonic clock."""
+    recovered = [
+        next((at for at in client["feel"]["recovered_at_monotonic"] if at >= returned_at), None)
+        for client in outcome.clients.values()
+    ]
+    times = [at for at in recovered if at is not None]
+    return max(times) - returned_at if len(times) == len(recovered) else ""
 
 
 def _figures(game: Game, outcome: Outcome) -> dict[str, Value]:
