@@ -76,12 +76,14 @@ impl EventDriven {
 
     fn begin(&mut self, substep: &mut Substep<'_>) {
         let balls = &mut *substep.balls;
-        let (dt, elastic) = (substep.dt, substep.rules.restitution() == 1.0);
+        let (dt, elastic, team) = (substep.dt, substep.rules.restitution() == 1.0, substep.team);
         match substep.field {
             Field::None(_) => self
                 .paths
-                .begin(balls, dt, Motion::Straight, elastic, |_| Vec2::ZERO),
-            Field::Constant(field) => self.paths.begin(balls, dt, Motion::Curved, elastic, |_| field.0),
+                .begin(balls, dt, Motion::Straight, elastic, team, |_| Vec2::ZERO),
+            Field::Constant(field) => self
+                .paths
+                .begin(balls, dt, Motion::Curved, elastic, team, |_| field.0),
             Field::Sum(field) => {
                 // Constant for all but fixed balls: still exact, by the slower roots.
                 let motion = if field.is_constant() {
@@ -89,8 +91,9 @@ impl EventDriven {
                 } else {
                     Motion::Kicked
                 };
-                self.paths
-                    .begin(balls, dt, motion, elastic, |body| field.at(substep.time, &body));
+                self.paths.begin(balls, dt, motion, elastic, team, |body| {
+                    field.at(substep.time, &body)
+                });
             }
         }
         if self.paths.motion == Motion::Kicked {

@@ -57,12 +57,12 @@ impl Paths {
         length: f64,
         motion: Motion,
         elastic: bool,
-        acceleration: impl Fn(Body) -> Vec2,
+        team: &Team,
+        acceleration: impl Fn(Body) -> Vec2 + Sync,
     ) {
         let count = balls.len();
         self.motion = motion;
         self.length = length;
-        self.acceleration.clear();
         self.kicks.clear();
         self.deferred.clear();
         self.supports.clear();
@@ -71,24 +71,31 @@ impl Paths {
         if motion == Motion::Straight {
             return;
         }
-        self.acceleration.extend((0..count).map(|index| {
-            let (position, velocity) = (balls.position[index], balls.velocity[index]);
-            acceleration(Body {
-                index,
-                mass: balls.mass[index],
-                position,
-                velocity,
-            })
-        }));
-        self.kicks.extend_from_slice(&self.acceleration);
+        self.acceleration.resize(count, Vec2::ZERO);
+        let whole = (&mut self.acceleration[..], 0..count);
+        team.each(whole, GRAIN, &|(accelerations, indices)| {
+            for (place, index) in accelerations.iter_mut().zip(indices) {
+                *place = acceleration(Body {
+                    index,
+                    mass: balls.mass[index],
+                    position: balls.position[index],
+                    velocity: balls.velocity[index],
+                });
+            }
+        });
         if !elastic {
+            self.kicks.extend_from_slice(&self.acceleration);
             self.margin = (0..count).fold(0.0, |most: f64, index| most.max(self.gain(index))) * length;
             self.touched.resize(count, false);
         }
     }
 
-    /// Counts hits from the start of the substep on.
-    pub(super) fn count_hits(&mut self, balls: &Balls) {
+    /// Counts hits, and keeps accelerations that contacts may change, from the start of the substep on.
+    pub(super) fn follow_hits(&mut self, balls: &Balls) {
+        self.kicks.clear();
+        if self.motion != Motion::Straight {
+            self.kicks.extend_from_slice(&self.acceleration);
+        }
         self.since.clear();
         self.since.resize(balls.len(), 0.0);
         self.hits.clear();

@@ -27,7 +27,7 @@ impl Sequence {
     ) -> Result<(), Error> {
         let walls = Walls::of(substep.rules);
         let law = Law::new(paths.motion, substep.rules.restitution(), substep.dt);
-        paths.count_hits(substep.balls);
+        paths.follow_hits(substep.balls);
         self.queue
             .begin(predicted.iter_mut().map(|list| &mut list.events));
         let mut count = 0;

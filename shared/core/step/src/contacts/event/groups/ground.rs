@@ -4,7 +4,7 @@ use super::super::contact::{Body, Law};
 use super::super::paths::{Motion, Paths};
 use super::super::piece::{Piece, mass, radius};
 use super::actors::Whereabouts;
-use super::run::Groups;
+use super::set::Groups;
 use super::strips::Strips;
 use crate::broadphase::Broadphase;
 use crate::walls::Walls;

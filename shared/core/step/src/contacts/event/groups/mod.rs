@@ -11,8 +11,12 @@
 //! or more slack are left, and run after the strips, when they may meet, and take over, any group of theirs.
 
 mod actors;
+mod chains;
+mod follow;
 mod ground;
+mod membership;
 mod run;
+mod set;
 mod strips;
 
 use super::contact::Law;
@@ -25,16 +29,21 @@ use crate::walls::Walls;
 
 use actors::{NONE, Whereabouts};
 use ground::{Beyond, Ground};
-use run::{Groups, LEFT, Tally};
+use set::{Groups, LEFT, Tally};
 use strips::{Strip, Strips};
 
 /// Balls of a strip, at least: narrow ones leave too much to be run after them.
 const STRIP_GRAIN: usize = 4 * GRAIN;
 
+/// Balls for each predicted event, at least: where there are fewer, groups meet so often that running them again costs
+/// more than the order of all times.
+const LEAST_ROOM: usize = 4;
+
 /// The collisions of a substep, group by group.
 pub(super) struct Grouped {
     /// Balls of a strip, at least.
     grain: usize,
+    least_room: usize,
     strips: Strips,
     whereabouts: Whereabouts,
     groups: Vec<Groups>,
@@ -43,15 +52,19 @@ pub(super) struct Grouped {
 
 impl Default for Grouped {
     fn default() -> Grouped {
-        Grouped::with_strips_of(STRIP_GRAIN)
+        Grouped {
+            least_room: LEAST_ROOM,
+            ..Grouped::with_strips_of(STRIP_GRAIN)
+        }
     }
 }
 
 impl Grouped {
-    /// With strips of so many balls, at least.
+    /// With strips of so many balls, at least, and for crowds, too.
     pub(super) fn with_strips_of(grain: usize) -> Grouped {
         Grouped {
             grain,
+            least_room: 0,
             strips: Strips::default(),
             whereabouts: Whereabouts::default(),
             groups: Vec::new(),
@@ -68,7 +81,8 @@ impl Grouped {
             Motion::Kicked => false,
         };
         let count = substep.balls.len();
-        if !suits || count >= LEFT as usize {
+        let events: usize = predicted.iter().map(|list| list.events.len()).sum();
+        if !suits || count < self.least_room * events || count >= LEFT as usize {
             return false;
         }
         let strips = substep.team.pieces().min(count.div_ceil(self.grain)).max(1);

@@ -16,6 +16,12 @@ pub(super) struct Strip {
     top: f64,
 }
 
+impl Default for Strip {
+    fn default() -> Strip {
+        Strip::ALL
+    }
+}
+
 impl Strip {
     /// The whole plane.
     pub(super) const ALL: Strip = Strip {

@@ -1,0 +1,132 @@
+//! Where a ball goes that was hit, and whom it meets there.
+
+use super::super::piece::{Piece, radius};
+use super::super::predict_walls;
+use super::super::queue::Event;
+use super::actors::{DEFERRED, NONE, WAITING, meeting};
+use super::ground::{Beyond, Ground};
+use super::run::Halt;
+use super::set::Groups;
+
+impl Groups {
+    /// Predicts the next collisions of an actor that was hit, and finds out whom it meets.
+    pub(super) fn follow(
+        &mut self,
+        ground: &Ground<'_>,
+        beyond: &mut Beyond<'_>,
+        slot: usize,
+    ) -> Result<(), Halt> {
+        let (paths, balls) = (ground.paths, ground.balls);
+        let (ball, piece) = (self.actors.all[slot].ball as usize, self.actors.all[slot].piece);
+        let (center, reach) = piece.disc(paths.motion, paths.length, radius(balls, ball));
+        self.stay(
+            ground,
+            beyond,
+            slot,
+            (center - paths.center[ball]).length() + reach,
+        )?;
+        self.near.clear();
+        beyond.query(center, reach + ground.strips.slack, &mut self.near);
+        self.looked_at += 1 + self.near.len() as u64;
+        if self.looked_at > ground.budget {
+            return Err(Halt::Stuck);
+        }
+        for at in 0..self.near.len() {
+            let other = self.near[at] as usize;
+            if other != ball {
+                self.face(ground, beyond, (slot, ball, &piece), other)?;
+            }
+        }
+        if let Some(walls) = &ground.walls
+            && !walls.hold(center, reach)
+        {
+            let path = (&piece, self.actors.party(slot));
+            predict_walls(paths, balls, walls, ball, path, |event| self.queue.push(event));
+        }
+        Ok(())
+    }
+
+    /// Sees to it that an actor is found where it is now: so far from the centre of its first disc, at the most.
+    fn stay(
+        &mut self,
+        ground: &Ground<'_>,
+        beyond: &mut Beyond<'_>,
+        slot: usize,
+        far: f64,
+    ) -> Result<(), Halt> {
+        let actor = &mut self.actors.all[slot];
+        let ball = actor.ball as usize;
+        if far <= actor.far || far <= ground.paths.reach[ball] + ground.strips.slack {
+            return Ok(());
+        }
+        match beyond {
+            Beyond::Closed(_) => Err(Halt::Leaves),
+            Beyond::Open(broadphase, _) => {
+                actor.far = far;
+                broadphase.relocate(ball, ground.paths.center[ball], far);
+                Ok(())
+            }
+        }
+    }
+
+    /// Finds out whether an actor, on its new piece of path, meets a ball, and what follows.
+    fn face(
+        &mut self,
+        ground: &Ground<'_>,
+        beyond: &Beyond<'_>,
+        (slot, ball, piece): (usize, usize, &Piece),
+        other: usize,
+    ) -> Result<(), Halt> {
+        let (paths, balls) = (ground.paths, ground.balls);
+        let partner = if let Some(partner) = self.find(ground, other) {
+            let group = self.actors.all[partner].group;
+            if group != self.running() && group != WAITING && group != DEFERRED {
+                let meets = self.actors.meet(paths, balls, (ball, piece), partner);
+                return if meets { Err(Halt::Met(partner)) } else { Ok(()) };
+            }
+            Some(partner)
+        } else {
+            if let Beyond::Open(_, strips) = beyond {
+                let at = ground.whereabouts.get(other);
+                if at != NONE {
+                    let (strip, at) = (ground.strips.of(paths.center[other].y), at as usize);
+                    let meets = strips[strip].actors.meet(paths, balls, (ball, piece), at);
+                    return if meets {
+                        Err(Halt::MetElsewhere(strip, at))
+                    } else {
+                        Ok(())
+                    };
+                }
+            }
+            None
+        };
+        let theirs = match partner {
+            Some(partner) => self.actors.all[partner].piece,
+            None => paths.first_piece(balls, other),
+        };
+        let Some(time) = meeting(paths, balls, (ball, piece), (other, &theirs)) else {
+            return Ok(());
+        };
+        let partner = match partner {
+            Some(partner) => match self.actors.all[partner].group {
+                WAITING => return Err(Halt::Met(partner)),
+                DEFERRED => return Err(Halt::Leaves),
+                _ => partner,
+            },
+            None if !self.holds(ground, other) => return Err(Halt::Leaves),
+            None => {
+                let partner = self.find_or_enlist(ground, other);
+                self.join(partner);
+                partner
+            }
+        };
+        let (first, second) = if balls.in_id_order(ball, other).0 == ball {
+            (slot, partner)
+        } else {
+            (partner, slot)
+        };
+        let event = Event::of_pair(time, self.actors.party(first), self.actors.party(second));
+        self.queue.push(event);
+        Ok(())
+    }
+}
