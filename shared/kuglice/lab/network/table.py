@@ -14,7 +14,7 @@ __all__ = ["cells", "snapshot_cells"]
 ROUND_TRIPS = (0.0, 0.050, 0.150, 0.300)
 JITTER = 0.2
 LOSS = 0.02
-PROTOCOLS = ("tcp",)
+PROTOCOLS = ("tcp+udp", "tcp")
 TARGET = Conditions(round_trip=0.150, jitter=JITTER, loss=LOSS)
 """The conditions for which targets are stated."""
 SNAPSHOTS = (6, 15, 30, 60, 120, 600)

@@ -1,4 +1,4 @@
-"""`kuglice bench network`, one cell through a proxy: real processes from the command line to the files."""
+"""`kuglice bench network`, cells through a proxy: real processes from the command line to the files."""
 
 from __future__ import annotations
 
@@ -12,21 +12,23 @@ from kuglice.lab.network.table import cells
 from kuglice.lab.rows import read_csv
 
 
-def test_a_cell_is_played_cut_and_judged(tmp_path, capfd):
+def test_cells_are_played_cut_and_judged(tmp_path, capfd):
     words = ["bench", "network", "--quick", "--link", "proxy", "--seconds", "1", "--json"]
     with pytest.raises(SystemExit) as end:
         main([*words, "--scene", "one acts", "--out", str(tmp_path)])
     assert not end.value.code
-    (row,) = json.loads(capfd.readouterr().out)["rows"]
-    assert (row["desyncs"], row["hashes_equal"]) == (0, 1)
-    assert (row["desyncs_after_cut"], row["hashes_equal_after_cut"]) == (0, 1)
-    assert row["inputs"] > 0
-    assert row["own_screen_ms"] > 0
-    assert row["other_screen_ms"] > 0, "the onlooker saw them too"
-    assert row["payload_down"] > row["payload_up"] > 0
-    assert row["wire_up"] == "", "a proxy sees no headers"
-    (again,) = read_csv(tmp_path / "network.csv")
-    assert again["payload_down"] == row["payload_down"]
+    rows = json.loads(capfd.readouterr().out)["rows"]
+    assert [row["protocols"] for row in rows] == ["tcp+udp", "tcp"]
+    for row in rows:
+        assert (row["desyncs"], row["hashes_equal"]) == (0, 1)
+        assert (row["desyncs_after_cut"], row["hashes_equal_after_cut"]) == (0, 1)
+        assert row["inputs"] > 0
+        assert row["own_screen_ms"] > 0
+        assert row["other_screen_ms"] > 0, "the onlooker saw them too"
+        assert row["payload_down"] > row["payload_up"] > 0
+        assert row["wire_up"] == "", "a proxy sees no headers"
+    again = read_csv(tmp_path / "network.csv")
+    assert [row["payload_down"] for row in again] == [row["payload_down"] for row in rows]
     assert "arena, one acts" in (tmp_path / "network.md").read_text()
 
 
@@ -35,7 +37,7 @@ def test_the_table_has_every_scene_under_every_condition():
     assert {cell.subject.name for cell in every} == {"arena", "arena, one acts", "rain 1,000", "rain 10,000"}
     conditions = {cell.conditions for cell in every}
     assert Conditions(round_trip=0.3, jitter=0.2, loss=0.02) in conditions
-    assert len(every) == 4 * len(conditions) == 28
+    assert len(every) == 4 * 2 * len(conditions) == 56
 
 
 def test_an_unknown_scene_is_refused(tmp_path):
