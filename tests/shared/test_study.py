@@ -2,70 +2,14 @@
 
 from __future__ import annotations
 
-import json
-
-import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import kuglice as kg
-from kuglice.cli.app import build
 from kuglice.errors import ReplayError
 from kuglice.inputs import pack
 from kuglice.study import Study, other_screen_delays, own_screen_delays
-from kuglice.study.recorder import StudyRecorder
 from kuglice.study.table import by_second, summary
-from server.small_arena import small_arena
-
-RATE = 60.0
-ME, OTHER = 1, 2
-
-
-class Session:
-    """A client that is two ticks ahead and knows nothing of what others do until it is confirmed."""
-
-    def __init__(self, path, *, number=ME, epoch=5, seen_bytes=1e9):
-        self.confirmed = kg.World(small_arena())
-        self.confirmed.step(
-            [
-                kg.Join(client=client, sequence=1, x=x, y=1, radius=0.4, mass=2)
-                for client, x in ((ME, 1), (OTHER, 19))
-            ]
-        )
-        self.predicted = self.confirmed.clone()
-        self.number, self.epoch = number, epoch
-        self.recorder = StudyRecorder(path, seen_bytes=seen_bytes)
-        self.now = 100.0
-        self.joined()
-
-    def joined(self):
-        self.recorder.joined(
-            self.now, self.confirmed, name="ana", number=self.number, epoch=self.epoch, rate=RATE
-        )
-
-    def act(self, given, tick):
-        self.recorder.acted(self.now, given, tick)
-
-    def tick(self, inputs=(), *, known=(), off=0.0):
-        """One tick is confirmed with `inputs`, two ahead of it predicted with those that are `known`; then a frame."""
-        tick = self.confirmed.tick
-        self.confirmed.step(inputs)
-        self.recorder.tick(self.now, tick, pack(inputs), self.confirmed.state_hash)
-        self.predicted = self.confirmed.clone()
-        self.predicted.step(known)
-        self.predicted.step()
-        self.now += 1 / RATE
-        self.frame(off)
-
-    def frame(self, off=0.0):
-        shown = self.predicted
-        self.recorder.frame(
-            self.now,
-            shown,
-            1.0,
-            self.confirmed.tick,
-            lambda: (shown.id, shown.position + np.array([off, 0.0])),
-        )
+from shared.studied_session import ME, OTHER, RATE, Session
 
 
 @pytest.fixture
@@ -211,20 +155,3 @@ def test_inputs_that_do_not_lead_to_the_servers_states_are_an_error(path):
     session.recorder.close()
     with pytest.raises(ReplayError, match="the server told"):
         list(Study.load(path).frames())
-
-
-def test_the_command_shows_seconds_and_writes_frames(path, tmp_path):
-    session = Session(path)
-    for _ in range(90):
-        session.tick(off=0.04)
-    session.recorder.close()
-    table = tmp_path / "out" / "frames.csv"
-    result = CliRunner().invoke(build(), ["study", str(path), "--json", "--csv", str(table)])
-    assert result.exit_code == 0, result.output
-    told = json.loads(result.stdout)
-    assert [row["second"] for row in told["seconds"]] == [0, 1]
-    assert told["study"]["own mean error radii"] == pytest.approx(0.1, rel=1e-3)
-    assert len(table.read_text().splitlines()) == 1 + told["study"]["frames compared"] == 1 + 88
-    assert np.isclose(told["seconds"][0]["worst error"], 0.1, rtol=1e-3)
-    people = CliRunner().invoke(build(), ["study", str(path)])
-    assert "Study of ana" in people.output

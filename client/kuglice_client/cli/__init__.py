@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from kuglice_client.cli import client, render, view
+from kuglice_client.cli import client, render, study, view
 
 __all__ = ["register"]
 
@@ -13,4 +13,5 @@ def register(app: typer.Typer) -> None:
     """Add them."""
     client.register(app)
     render.register(app)
+    study.register(app)
     view.register(app)

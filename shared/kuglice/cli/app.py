@@ -17,7 +17,7 @@ __all__ = ["GROUP", "build"]
 
 GROUP = "kuglice.commands"
 """Entry points: modules with `register(app)`."""
-OWN = ("scenes", "plan", "replay", "study", "demo", "router")
+OWN = ("scenes", "plan", "replay", "demo", "router")
 ORDER = (
     "demo",
     "scenes",

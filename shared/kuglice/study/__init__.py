@@ -6,6 +6,6 @@ for frame in study.frames():
 """
 
 from kuglice.study.delays import other_screen_delays, own_screen_delays
-from kuglice.study.study import SeenFrame, Study
+from kuglice.study.study import Seen, SeenFrame, Study
 
-__all__ = ["SeenFrame", "Study", "other_screen_delays", "own_screen_delays"]
+__all__ = ["Seen", "SeenFrame", "Study", "other_screen_delays", "own_screen_delays"]

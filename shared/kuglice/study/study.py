@@ -19,7 +19,7 @@ from kuglice.scene import Scene
 from kuglice.study.format import DrawnFrame, Event, Joined, State, Tick, read_study
 from kuglice.world import World
 
-__all__ = ["SeenFrame", "Study"]
+__all__ = ["Seen", "SeenFrame", "Study"]
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.uint64]
@@ -43,12 +43,17 @@ class SeenFrame:
     own_error: float | None
 
 
-class _Placed(NamedTuple):
+class Seen(NamedTuple):
+    """A frame whose balls were recorded: `ids` were drawn at `position` (n, 2).
+
+    `world` is the server's state(frame.tick), `before` the one before it. Both move on with the next frame.
+    """
+
+    frame: DrawnFrame
     ids: Ids
     position: Floats
-    radius: Floats
-    own: int | None
-    state_hash: int
+    before: World
+    world: World
 
 
 class Study:
@@ -72,12 +77,19 @@ class Study:
             raise ReplayError(f"{path}: cannot be read: {error.strerror}") from error
 
     def frames(self) -> Iterator[SeenFrame]:
-        """Those whose balls were recorded and whose tick was confirmed, in the order of their ticks.
+        """Frames whose balls were recorded, compared with the server's states; as `seen`."""
+        for part in self._parts():
+            number = part[0].number if isinstance(part[0], Joined) else None
+            for one in self._seen(part):
+                yield self._compared(one, number)
+
+    def seen(self) -> Iterator[Seen]:
+        """Frames whose balls were recorded and whose tick was confirmed, in the order of their ticks.
 
         Runs the authoritative inputs again. Raises ReplayError if that gives other states than the server's.
         """
         for part in self._parts():
-            yield from self._compared(part)
+            yield from self._seen(part)
 
     def _parts(self) -> Iterator[list[Event]]:
         """Events from each join to the next."""
@@ -89,21 +101,27 @@ class Study:
             part.append(event)
         yield part
 
-    def _compared(self, events: list[Event]) -> Iterator[SeenFrame]:
-        drawn: dict[int, list[tuple[DrawnFrame, Ids]]] = {}
+    def _seen(self, events: list[Event]) -> Iterator[Seen]:
+        drawn: dict[int, list[tuple[DrawnFrame, Ids, Floats]]] = {}
         ids: Ids = np.empty(0, np.uint64)
         for event in events:
             if isinstance(event, DrawnFrame) and event.seen is not None:
                 ids = ids if event.ids is None else np.frombuffer(event.ids, "<u8").astype(np.uint64)
-                drawn.setdefault(event.tick, []).append((event, ids))
-        before: _Placed | None = None
-        for placed, tick in self._confirmed(events):
-            for frame, names in drawn.pop(tick, []):
-                if before is not None:
-                    yield self._seen(frame, names, before, placed)
-            before = placed
+                position = np.frombuffer(event.seen, "<f4").astype(np.float64).reshape(-1, 2)
+                if len(position) != len(ids):
+                    raise ReplayError(
+                        f"{self.path}: frame of tick {event.tick}: {len(position)} places of {len(ids)} balls"
+                    )
+                drawn.setdefault(event.tick, []).append((event, ids, position))
+        before: World | None = None
+        for world in self._confirmed(events):
+            for frame in drawn.pop(world.tick, []) if before is not None else []:
+                assert before is not None
+                yield Seen(*frame, before, world)
+            before = world.clone() if before is None else before
+            before.copy_from(world)
 
-    def _confirmed(self, events: list[Event]) -> Iterator[tuple[_Placed, int]]:
+    def _confirmed(self, events: list[Event]) -> Iterator[World]:
         joined = events[0]
         assert isinstance(joined, Joined)
         if joined.step_version != _core.STEP_VERSION:
@@ -114,7 +132,7 @@ class Study:
         try:
             scene, model = Scene.from_message(joined.scene), Model.from_message(joined.model)
             world = World.restore(scene, joined.state, model)
-            yield _placed(world, joined.number), world.tick
+            yield world
             for event in events:
                 match event:
                     case Tick() if event.tick == world.tick:
@@ -124,10 +142,10 @@ class Study:
                                 f"{self.path}: state {world.tick}: hash {world.state_hash:016x}, the server told "
                                 f"{event.hash:016x}"
                             )
-                        yield _placed(world, joined.number), world.tick
+                        yield world
                     case State():
                         world = World.restore(scene, event.data, model)
-                        yield _placed(world, joined.number), world.tick
+                        yield world
                     case _:
                         pass
         except ReplayError:
@@ -135,29 +153,20 @@ class Study:
         except KugliceError as error:
             raise ReplayError(f"{self.path}: {error}") from error
 
-    def _seen(self, frame: DrawnFrame, ids: Ids, before: _Placed, now: _Placed) -> SeenFrame:
-        assert frame.seen is not None
-        position = np.frombuffer(frame.seen, "<f4").astype(np.float64).reshape(-1, 2)
-        if len(position) != len(ids):
-            raise ReplayError(
-                f"{self.path}: frame of tick {frame.tick}: {len(position)} places of {len(ids)} balls"
-            )
-        expected = blend(before.ids, before.position, now.ids, now.position, frame.alpha)
-        shared, seen, here = np.intersect1d(ids, now.ids, assume_unique=True, return_indices=True)
-        apart = position[seen] - expected[here]
-        errors = np.hypot(apart[:, 0], apart[:, 1]) / now.radius[here]
-        own = errors[shared == now.own] if now.own is not None else errors[:0]
+    def _compared(self, one: Seen, number: int | None) -> SeenFrame:
+        frame, before, world = one.frame, one.before, one.world
+        expected = blend(before.id, before.position, world.id, world.position, frame.alpha)
+        shared, seen, here = np.intersect1d(one.ids, world.id, assume_unique=True, return_indices=True)
+        apart = one.position[seen] - expected[here]
+        errors = np.hypot(apart[:, 0], apart[:, 1]) / world.radius[here]
+        ball = None if number is None else dict(world.players).get(number)
+        own = errors[:0] if ball is None else errors[shared == ball]
         return SeenFrame(
             at=frame.at - self.began,
             tick=frame.tick,
             ahead=frame.tick - frame.confirmed,
-            right=frame.hash == now.state_hash,
+            right=frame.hash == world.state_hash,
             mean_error=float(errors.mean()) if len(errors) else 0.0,
             worst_error=float(errors.max(initial=0.0)),
             own_error=float(own[0]) if len(own) else None,
         )
-
-
-def _placed(world: World, number: int | None) -> _Placed:
-    own = None if number is None else dict(world.players).get(number)
-    return _Placed(world.id, world.position, world.radius, own, world.state_hash)

@@ -12,9 +12,12 @@ from typing import Annotated
 import typer
 
 from kuglice.cli.figures import print_figures
+from kuglice.cli.logs import STDERR
 from kuglice.cli.rows import print_rows
+from kuglice.extras import require
 from kuglice.study import SeenFrame, Study, other_screen_delays
 from kuglice.study.table import by_second, summary
+from kuglice_client.render.seen import film_of_seen
 
 __all__ = ["register"]
 
@@ -24,7 +27,7 @@ def register(app: typer.Typer) -> None:
     app.command("study")(study)
 
 
-def study(
+def study(  # noqa: PLR0917 - options
     file: Annotated[Path, typer.Argument(help="What `kuglice client --study` wrote.", metavar="FILE")],
     other: Annotated[
         list[Path] | None,
@@ -36,6 +39,10 @@ def study(
     frames_csv: Annotated[
         Path | None, typer.Option("--csv", help="Write a row for every frame that was compared.")
     ] = None,
+    render: Annotated[
+        Path | None, typer.Option(help="Draw what was seen: .mp4, .webm, .gif, or frame-%05d.png.")
+    ] = None,
+    fps: Annotated[float, typer.Option(help="Frames per second of the film.", min=1.0, max=240.0)] = 30.0,
     as_json: Annotated[bool, typer.Option("--json", help="The same figures as JSON.")] = False,
 ) -> None:
     """Compare what a client drew with the server's world.
@@ -53,6 +60,10 @@ def study(
         figures[heading] = 1000 * statistics.fmean(delays) if delays else None
     if frames_csv is not None:
         _write(frames_csv, frames)
+    if render is not None:
+        require("render")
+        with STDERR.status("drawing"):
+            figures["frames of the film"] = film_of_seen(seen.seen(), render, fps=fps, own=seen.joined.number)
     seconds = by_second(seen, frames)
     if as_json:
         print(json.dumps({"study": figures, "seconds": seconds}, indent=2))
