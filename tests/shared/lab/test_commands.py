@@ -87,6 +87,7 @@ class TestBench:
 
     def test_rows_are_complete(self, out):
         assert {"processor", "cores", "versions", "flags", "date"} <= set(self.printed["machine"])
+        assert "rustc 1." in self.printed["machine"]["flags"]
         for row in self.printed["rows"]:
             assert 0 < row["minimum"] <= row["median"]
             assert row["repeats"] == 2
