@@ -29,6 +29,7 @@ from kuglice_client.pace import judge_pace, step_seconds
 from kuglice_client.pinging import Pinging
 from kuglice_client.prediction import Floats, Ids, Prediction
 from kuglice_client.reconcile import Reconciler
+from kuglice_client.renewal import Renewal
 from kuglice_client.screen import FRAME_RATE, Frames, Screen
 from kuglice_client.settings import ClientSettings
 from kuglice_client.summary import figures, summarise
@@ -68,8 +69,9 @@ class Client:
         self._study: StudyRecorder | None = None
         # Tells us from another who takes the same name; whoever is cut off and comes back is the same still.
         self._session = secrets.token_hex(SESSION_BYTES)
-        self.link = Link(settings.connect, deadline=deadline, stop=self.stop)
+        self.link = Link(settings.connect, deadline=deadline, stop=self.stop, renewable=True)
         self._datagrams = DatagramWatch(self.link, settings.connect)
+        self.renewal = Renewal(self.link, self._datagrams)
         try:
             self._study = None if settings.study is None else StudyRecorder(settings.study)
             world = settings.world or find_world(self.link, deadline=deadline, stop=self.stop)
@@ -129,8 +131,10 @@ class Client:
         """
         self._receive(now)
         self._datagrams.turn(now)
-        if self.healing.turn(now, silent=now - self._heard_at > self._silence):
+        silent = now - self._heard_at > self._silence
+        if self.healing.turn(now, silent=silent):
             self._replaced(now)
+        self.renewal.turn(now, silent=silent, answered=self.healing.brought is not None)
         if self.healing.brought is not None:
             self._brought(self.healing.brought, now)
         round_trip = self._pinging.turn(now, self.confirmed.tick - 1)

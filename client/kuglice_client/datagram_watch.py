@@ -25,6 +25,17 @@ class DatagramWatch:
         self._wanted = any(wants_datagrams(endpoint) for endpoint in connect)
         self._look_at = time.monotonic() + FIRST_SECONDS
         self._were_up: bool | None = None
+        self._ever_up = False
+
+    @property
+    def died(self) -> bool:
+        """Whether datagrams got through, and do not any more."""
+        return self._were_up is False and self._ever_up
+
+    def renewed(self) -> None:
+        """The link was opened anew: what does not come up now is not waited for."""
+        self._ever_up = False
+        self._look_at = time.monotonic() + FIRST_SECONDS
 
     def turn(self, now: float) -> None:
         """Look, now and then."""
@@ -36,6 +47,7 @@ class DatagramWatch:
             # Cut off altogether: that is told as silence.
             return
         up = "udp" in kinds
+        self._ever_up = self._ever_up or up
         if up == self._were_up:
             return
         if not up:

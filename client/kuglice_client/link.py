@@ -24,6 +24,7 @@ from kuglice.protocol import (
     encode,
     open_links,
     open_session,
+    wants_datagrams,
 )
 from kuglice_client.ask import Asked
 from kuglice_client.traffic import Traffic
@@ -44,14 +45,22 @@ class Link:
     """Connects when made; raises JoinError if that fails until `deadline`, or when `stop` is set.
 
     Messages wait in rings that drop the oldest: a client that was away for long finds what is fresh, and asks
-    for the rest.
+    for the rest. `renewable`: whoever made it opens it anew after a cut (renewal.py).
     """
 
-    def __init__(self, connect: tuple[str, ...], *, deadline: float, stop: threading.Event) -> None:
+    def __init__(
+        self, connect: tuple[str, ...], *, deadline: float, stop: threading.Event, renewable: bool = False
+    ) -> None:
         self.traffic = Traffic()
         self.malformed = 0
-        self.session = _connected(connect, deadline, stop)
+        # Who opens another session after a cut needs none that comes back by itself, with what it was before.
+        self._reconnect = not (renewable and any(map(wants_datagrams, connect)))
+        self._connect = connect
+        self.session = _connected(connect, deadline, stop, self._reconnect)
+        self._opening: _Opening | None = None
         self._declared: list[Declared] = []
+        self._goodbye: _Goodbye | None = None
+        self._who: tuple[str, str] | None = None
         self._ticks: Samples | None = None
         self._snapshots: Samples | None = None
         self._snapshot_ring = 0
@@ -61,13 +70,12 @@ class Link:
         self._keys = keys
         self._ticks = self._subscribe(keys.tick, TICK_RING)
         if snapshots:
-            self._snapshots, self._snapshot_ring = (
-                self._subscribe(keys.snapshot, SNAPSHOT_RING),
-                SNAPSHOT_RING,
-            )
+            self._snapshot_ring = max(self._snapshot_ring, SNAPSHOT_RING)
+            self._snapshots = self._subscribe(keys.snapshot, self._snapshot_ring)
 
     def show(self, name: str, session: str) -> None:
         """Let the server know that this session of the client `name` is here, until it is closed or dies."""
+        self._who = (name, session)
         self._input = self.session.declare_publisher(
             self._keys.input(name, session),
             congestion_control=zenoh.CongestionControl.DROP,
@@ -78,7 +86,8 @@ class Link:
         )
         self._declared.append(self._input)
         token = self.session.liveliness().declare_token(self._keys.client(name, session))
-        self._declared += [token, _Goodbye(self.session, self._keys.input(name, session))]
+        self._goodbye = _Goodbye(self.session, self._keys.input(name, session))
+        self._declared += [token, self._goodbye]
 
     def make_room(self, parts: int) -> None:
         """Hold at least that many parts of snapshots: fewer than one has, and none would ever be whole."""
@@ -108,12 +117,42 @@ class Link:
         self._input.put(data)
 
     @property
+    def comes_back(self) -> bool:
+        """Whether the session reconnects by itself after a cut; else `begin_renewal` has to."""
+        return self._reconnect
+
+    @property
     def kinds(self) -> list[str]:
         """What this end is connected by: `tcp`, and `udp` where ticks and inputs go as datagrams."""
         return open_links(self.session)
 
+    def begin_renewal(self) -> None:
+        """Open another session beside this one, unless that is being done already."""
+        if self._opening is None:
+            self._opening = _Opening(self._connect, self._reconnect)
+
+    def renewed(self) -> bool:
+        """Whether another session is open by now; then everything goes over it from here on, and the old one ends.
+
+        The server sees no difference: the token is never gone.
+        """
+        if self._opening is None or self._opening.running:
+            return False
+        session, self._opening = self._opening.session, None
+        if session is None:
+            return False
+        old, declared = self.session, [one for one in self._declared if one is not self._goodbye]
+        self.session, self._declared, self._goodbye = session, [], None
+        self.listen(self._keys, snapshots=self._snapshots is not None)
+        if self._who is not None:
+            self.show(*self._who)
+        close_session(old, reversed(declared), timeout=0.0)
+        return True
+
     def close(self, timeout: float) -> bool:
         """Leave. False if Zenoh did not finish within `timeout` seconds."""
+        if self._opening is not None and self._opening.session is not None:
+            close_session(self._opening.session, [], timeout=0.0)
         return close_session(self.session, reversed(self._declared), timeout=timeout)
 
     def _subscribe(self, key: str, ring: int) -> Samples:
@@ -150,10 +189,33 @@ class _Goodbye:
         )
 
 
-def _connected(connect: tuple[str, ...], deadline: float, stop: threading.Event) -> zenoh.Session:
+class _Opening:
+    """A session that is being opened in a thread of its own: that may take a second."""
+
+    def __init__(self, connect: tuple[str, ...], reconnect: bool) -> None:
+        self.session: zenoh.Session | None = None
+        self._configuration = client_configuration(connect, timeout=1.0, reconnect=reconnect)
+        self._thread = threading.Thread(target=self._open, name="open zenoh session", daemon=True)
+        self._thread.start()
+
+    @property
+    def running(self) -> bool:
+        """Whether that is still going on."""
+        return self._thread.is_alive()
+
+    def _open(self) -> None:
+        try:
+            self.session = open_session(self._configuration)
+        except ProtocolError as error:
+            log.debug("%s", error)
+
+
+def _connected(
+    connect: tuple[str, ...], deadline: float, stop: threading.Event, reconnect: bool
+) -> zenoh.Session:
     while True:
         try:
-            return open_session(client_configuration(connect, timeout=1.0))
+            return open_session(client_configuration(connect, timeout=1.0, reconnect=reconnect))
         except ProtocolError as error:
             # Where datagrams are wanted too, an attempt ends at once if nobody is there.
             if time.monotonic() > deadline or stop.wait(RETRY_SECONDS):

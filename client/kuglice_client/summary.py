@@ -50,6 +50,7 @@ def summarise(client: Client, *, seconds: float) -> dict[str, Any]:
         "world": client.joined.about.world,
         "epoch": client.joined.epoch,
         "links": "+".join(client.link.kinds),
+        "link_renewals": client.renewal.renewals,
         "seconds": seconds,
         "joined_after_seconds": client.joined_after,
         "final_tick": client.confirmed.tick,

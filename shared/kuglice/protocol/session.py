@@ -30,6 +30,7 @@ LINKS = 2
 OPEN_TIMEOUT_MS = 1500
 """How long a link that nobody answers on is tried: it may have been cut, or another one be there."""
 RETRY_MS = 200
+NEVER_MS = 24 * 3600 * 1000
 
 
 class Declared(Protocol):
@@ -48,12 +49,17 @@ def server_configuration(*, listen: Sequence[str], connect: Sequence[str]) -> di
     return _configuration("client", listen=(), connect=connect)
 
 
-def client_configuration(connect: Sequence[str], *, timeout: float) -> dict[str, Any]:
+def client_configuration(connect: Sequence[str], *, timeout: float, reconnect: bool = True) -> dict[str, Any]:
     """A session that connects to one of the endpoints, and gives up after `timeout` seconds.
 
     Where datagrams are wanted too (tcp+udp/...), it is content with the stream if they do not get through.
+    `reconnect`: whether it comes back by itself after a cut. With datagrams it then numbers its keys anew, and
+    datagrams that are on their way or come first are taken for messages of other keys; without datagrams all is well.
     """
-    return _configuration("client", listen=(), connect=connect, timeout=timeout, lease_ms=LEASE_MS)
+    made = _configuration("client", listen=(), connect=connect, timeout=timeout, lease_ms=LEASE_MS)
+    if not reconnect:
+        made["connect"]["retry"] |= {"period_init_ms": NEVER_MS, "period_max_ms": NEVER_MS}
+    return made
 
 
 def _configuration(

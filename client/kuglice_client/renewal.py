@@ -1,0 +1,53 @@
+"""When a link is opened anew: after a cut, where there are datagrams beside the stream.
+
+Zenoh would come back by itself, but without the datagrams, and with keys numbered anew, by which messages that come
+over two links are mixed up: ticks were not heard again, inputs were heard as ticks.
+"""
+
+from __future__ import annotations
+
+import logging
+
+from kuglice_client.datagram_watch import DatagramWatch
+from kuglice_client.link import Link
+
+__all__ = ["Renewal"]
+
+log = logging.getLogger(__name__)
+
+PATIENCE_SECONDS = 1.5
+"""Of a stream that stays silent while the server answers, or of datagrams that are dead."""
+AGAIN_SECONDS = 10.0
+LOOK_SECONDS = 0.25
+
+
+class Renewal:
+    """Of one link, from outside: it looks, waits, and asks for another session."""
+
+    def __init__(self, link: Link, datagrams: DatagramWatch) -> None:
+        self._link = link
+        self._datagrams = datagrams
+        self._since: float | None = None
+        self._not_before = 0.0
+        self._look_at = 0.0
+        self.renewals = 0
+
+    def turn(self, now: float, *, silent: bool, answered: bool) -> None:
+        """`silent`: the stream brings nothing. `answered`: the server has just answered a question."""
+        if self._link.renewed():
+            self.renewals += 1
+            self._datagrams.renewed()
+            log.info("the link was opened anew")
+        if silent and not self._link.comes_back and now >= self._look_at:
+            self._look_at = now + LOOK_SECONDS
+            if not self._link.kinds:
+                self._link.begin_renewal()
+        broken = self._datagrams.died or (silent and (answered or self._since is not None))
+        if not broken:
+            self._since = None
+            return
+        if self._since is None:
+            self._since = now
+        if now - self._since >= PATIENCE_SECONDS and now >= self._not_before:
+            self._since, self._not_before = None, now + AGAIN_SECONDS
+            self._link.begin_renewal()
