@@ -48,6 +48,8 @@ STALL_SECONDS = 2.0
 SILENCE_SECONDS = 0.5
 SILENCE_TICKS = 4
 LAG_SECONDS = 2.0
+LINGER_TRIPS = 1.5
+"""Round trips for which a goodbye is given time to arrive."""
 CONFIRM_SECONDS = 0.05
 PREDICT_SECONDS = 0.012
 """Of one turn: running forward again that takes longer goes on in the next, and frames come in between."""
@@ -67,6 +69,7 @@ class Client:
         self.totals = Totals()
         self.screen = Screen()
         self._study: StudyRecorder | None = None
+        self._linger = 0.0
         # Tells us from another who takes the same name; whoever is cut off and comes back is the same still.
         self._session = secrets.token_hex(SESSION_BYTES)
         self.link = Link(settings.connect, deadline=deadline, stop=self.stop, renewable=True)
@@ -203,7 +206,7 @@ class Client:
         """Leave. False if Zenoh did not finish within `timeout` seconds."""
         if self._study is not None:
             self._study.close()
-        return self.link.close(timeout)
+        return self.link.close(timeout, linger=self._linger)
 
     def __enter__(self) -> Self:
         return self
@@ -222,6 +225,7 @@ class Client:
         judge_pace(self.step_seconds, rate=about.rate, balls=joined.world.count)
         now = time.monotonic()
         self.joined = joined
+        self._linger = LINGER_TRIPS * joined.round_trip
         self.follower = Follower(joined.world)
         self.reconciler = Reconciler(
             self.follower,

@@ -149,8 +149,14 @@ class Link:
         close_session(old, reversed(declared), timeout=0.0)
         return True
 
-    def close(self, timeout: float) -> bool:
-        """Leave. False if Zenoh did not finish within `timeout` seconds."""
+    def close(self, timeout: float, *, linger: float = 0.0) -> bool:
+        """Leave. False if Zenoh did not finish within `timeout` seconds.
+
+        `linger`: seconds in which the goodbye is on its way. A socket that is closed while more comes in takes back
+        what it had not delivered yet.
+        """
+        if self._goodbye is not None:
+            self._goodbye.linger = min(linger, timeout / 2)
         if self._opening is not None and self._opening.session is not None:
             close_session(self._opening.session, [], timeout=0.0)
         return close_session(self.session, reversed(self._declared), timeout=timeout)
@@ -180,6 +186,7 @@ class _Goodbye:
     def __init__(self, session: zenoh.Session, key: str) -> None:
         self._session = session
         self._key = key
+        self.linger = 0.0
 
     def undeclare(self) -> None:
         self._session.delete(
@@ -187,6 +194,7 @@ class _Goodbye:
             congestion_control=zenoh.CongestionControl.BLOCK,
             allowed_destination=zenoh.Locality.REMOTE,
         )
+        time.sleep(self.linger)
 
 
 class _Opening:

@@ -5,6 +5,8 @@ Through a proxy everywhere, and as root through a tunnel, where real TCP has to 
 
 from __future__ import annotations
 
+import signal
+
 import pytest
 
 from e2e.bad_network import Play
@@ -50,6 +52,16 @@ def test_a_player_that_was_cut_off_is_missed_and_goes_on_with_its_ball(start, sc
     assert figures["number"] == 1
     assert figures["rejoins"] == 0
     assert figures["final_tick"] > 60 + 5 * 60
+
+
+def test_a_goodbye_arrives_though_the_link_is_closed_right_behind_it(start, scene, tmp_path, link):
+    play = Play(start, scene, tmp_path, link)
+    player = play.join("ana", "orbiter")
+    play.go_on(30)
+    player.signal(signal.SIGINT)
+    player.figures()
+    until(lambda: "ana (client 1) leaves" in play.server.err, what="ana has left in order", seconds=5.0)
+    assert "away" not in play.server.err
 
 
 def test_a_stall_costs_time_and_nothing_else(start, scene, tmp_path, link):

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 __all__ = ["register"]
 
 MOVED_EVERY_SECONDS = 0.1
+FASTEST_PAN = 1e6
 
 
 def register(app: typer.Typer) -> None:
@@ -120,6 +121,8 @@ def _velocity(text: str) -> tuple[float, float]:
         x, y = map(float, text.split(","))
     except ValueError:
         raise typer.BadParameter(f"pan {text!r}: must be two numbers VX,VY") from None
+    if not max(abs(x), abs(y)) <= FASTEST_PAN:
+        raise typer.BadParameter(f"pan {text!r}: at most {FASTEST_PAN:g} metres per second")
     return x, y
 
 

@@ -12,7 +12,8 @@ __all__ = ["Hearing"]
 
 DRIFT = 1.05
 """How much faster than it says a server's clock may run."""
-AHEAD_SECONDS = 1.0
+AHEAD_SECONDS = 10.0
+"""Which a server that was late may catch up with in no time."""
 """How far a server may be ahead of its rate: less than makes a view begin anew."""
 
 

@@ -10,6 +10,9 @@ from kuglice.protocol import DEFAULT_ENDPOINT, Rectangle
 
 __all__ = ["ViewSettings", "check_rectangle", "parse_rectangle"]
 
+FARTHEST = 1e12
+"""Metres; beyond, neighbouring numbers are farther apart than balls are large."""
+
 
 @dataclass(frozen=True)
 class ViewSettings:
@@ -38,8 +41,8 @@ class ViewSettings:
 def check_rectangle(rectangle: Rectangle) -> Rectangle:
     """As it is; raises ProtocolError if it is none."""
     left, bottom, right, top = rectangle
-    if not (all(map(math.isfinite, rectangle)) and left < right and bottom < top):
-        raise ProtocolError(f"view {rectangle}: must be finite, its width and height above 0")
+    if not (all(abs(edge) <= FARTHEST for edge in rectangle) and left < right and bottom < top):
+        raise ProtocolError(f"view {rectangle}: must be within {FARTHEST:g} m, its width and height above 0")
     return rectangle
 
 

@@ -2,20 +2,31 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import threading
+import time
 from types import FrameType
 
 __all__ = ["stop_on_signals"]
 
+ECHO_SECONDS = 1.0
+
 
 def stop_on_signals() -> threading.Event:
-    """An event that the first SIGINT or SIGTERM sets; a second one ends the process at once."""
+    """An event that the first SIGINT or SIGTERM sets; a later one ends the process at once.
+
+    What follows within a second is the first one again: `timeout` signals its child and then the whole group.
+    """
     stop = threading.Event()
+    first: list[float] = []
 
     def note(number: int, _: FrameType | None) -> None:
         stop.set()
-        signal.signal(number, signal.SIG_DFL)
+        first.append(time.monotonic())
+        if first[-1] - first[0] > ECHO_SECONDS:
+            signal.signal(number, signal.SIG_DFL)
+            os.kill(os.getpid(), number)
 
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, note)

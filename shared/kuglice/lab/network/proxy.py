@@ -8,6 +8,7 @@ ones until it is over.
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import itertools
 from collections import Counter
 
@@ -109,7 +110,9 @@ class _Window:
         if data:
             self._writer.write(data)
         elif self._writer.can_write_eof():
-            self._writer.write_eof()
+            # Who has closed both ways meanwhile does not want to hear of an end.
+            with contextlib.suppress(OSError):
+                self._writer.write_eof()
 
     async def room(self) -> None:
         while self.under_way >= UNDER_WAY_BYTES:
