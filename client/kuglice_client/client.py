@@ -73,7 +73,7 @@ class Client:
         # Tells us from another who takes the same name; whoever is cut off and comes back is the same still.
         self._session = secrets.token_hex(SESSION_BYTES)
         self.link = Link(settings.connect, deadline=deadline, stop=self.stop, renewable=True)
-        self._datagrams = DatagramWatch(self.link, settings.connect)
+        self._datagrams = DatagramWatch(self.link)
         self.renewal = Renewal(self.link, self._datagrams)
         try:
             self._study = None if settings.study is None else StudyRecorder(settings.study)

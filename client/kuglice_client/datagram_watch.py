@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 import time
 
-from kuglice.protocol import wants_datagrams
 from kuglice_client.link import Link
 
 __all__ = ["DatagramWatch"]
@@ -20,9 +19,8 @@ EVERY_SECONDS = 1.0
 class DatagramWatch:
     """Warns where a client has to make do with the stream: later ticks and inputs, but nothing wrong."""
 
-    def __init__(self, link: Link, connect: tuple[str, ...]) -> None:
+    def __init__(self, link: Link) -> None:
         self._link = link
-        self._wanted = any(wants_datagrams(endpoint) for endpoint in connect)
         self._look_at = time.monotonic() + FIRST_SECONDS
         self._were_up: bool | None = None
         self._ever_up = False
@@ -39,7 +37,7 @@ class DatagramWatch:
 
     def turn(self, now: float) -> None:
         """Look, now and then."""
-        if not self._wanted or now < self._look_at:
+        if not self._link.wants_datagrams or now < self._look_at:
             return
         self._look_at = now + EVERY_SECONDS
         kinds = self._link.kinds

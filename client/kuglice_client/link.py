@@ -6,7 +6,7 @@ import logging
 import threading
 import time
 from collections.abc import Iterator
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import zenoh
 
@@ -45,7 +45,8 @@ class Link:
     """Connects when made; raises JoinError if that fails until `deadline`, or when `stop` is set.
 
     Messages wait in rings that drop the oldest: a client that was away for long finds what is fresh, and asks
-    for the rest. `renewable`: whoever made it opens it anew after a cut (renewal.py).
+    for the rest. `renewable`: whoever made it opens it anew after a cut (renewal.py). `comes_back`: whether the
+    session reconnects by itself instead.
     """
 
     def __init__(
@@ -53,10 +54,11 @@ class Link:
     ) -> None:
         self.traffic = Traffic()
         self.malformed = 0
+        self.wants_datagrams = any(map(wants_datagrams, connect))
         # Who opens another session after a cut needs none that comes back by itself, with what it was before.
-        self._reconnect = not (renewable and any(map(wants_datagrams, connect)))
-        self._connect = connect
-        self.session = _connected(connect, deadline, stop, self._reconnect)
+        self.comes_back = not (renewable and self.wants_datagrams)
+        self._configuration = client_configuration(connect, timeout=1.0, reconnect=self.comes_back)
+        self.session = _connected(self._configuration, deadline, stop)
         self._opening: _Opening | None = None
         self._declared: list[Declared] = []
         self._goodbye: _Goodbye | None = None
@@ -117,11 +119,6 @@ class Link:
         self._input.put(data)
 
     @property
-    def comes_back(self) -> bool:
-        """Whether the session reconnects by itself after a cut; else `begin_renewal` has to."""
-        return self._reconnect
-
-    @property
     def kinds(self) -> list[str]:
         """What this end is connected by: `tcp`, and `udp` where ticks and inputs go as datagrams."""
         return open_links(self.session)
@@ -129,7 +126,7 @@ class Link:
     def begin_renewal(self) -> None:
         """Open another session beside this one, unless that is being done already."""
         if self._opening is None:
-            self._opening = _Opening(self._connect, self._reconnect)
+            self._opening = _Opening(self._configuration)
 
     def renewed(self) -> bool:
         """Whether another session is open by now; then everything goes over it from here on, and the old one ends.
@@ -200,9 +197,9 @@ class _Goodbye:
 class _Opening:
     """A session that is being opened in a thread of its own: that may take a second."""
 
-    def __init__(self, connect: tuple[str, ...], reconnect: bool) -> None:
+    def __init__(self, configuration: dict[str, Any]) -> None:
         self.session: zenoh.Session | None = None
-        self._configuration = client_configuration(connect, timeout=1.0, reconnect=reconnect)
+        self._configuration = configuration
         self._thread = threading.Thread(target=self._open, name="open zenoh session", daemon=True)
         self._thread.start()
 
@@ -218,12 +215,10 @@ class _Opening:
             log.debug("%s", error)
 
 
-def _connected(
-    connect: tuple[str, ...], deadline: float, stop: threading.Event, reconnect: bool
-) -> zenoh.Session:
+def _connected(configuration: dict[str, Any], deadline: float, stop: threading.Event) -> zenoh.Session:
     while True:
         try:
-            return open_session(client_configuration(connect, timeout=1.0, reconnect=reconnect))
+            return open_session(configuration)
         except ProtocolError as error:
             # Where datagrams are wanted too, an attempt ends at once if nobody is there.
             if time.monotonic() > deadline or stop.wait(RETRY_SECONDS):

@@ -211,34 +211,33 @@ class Server:
     def about(self) -> About:
         """What a client must know to join. Safe from any thread."""
         return About(
-            epoch=self.epoch,
-            world=self.settings.world,
-            version=__version__,
-            step_version=_core.STEP_VERSION,
-            scene=self._ruled_scene_message,
-            model=self.world.model.to_message(),
-            rate=self.rate,
+            **self._about_world(),
             snapshot_every=self._snapshot_every,
             hash_every=self._hash_every,
             history_ticks=self._history.span,
-            tick=self._now,
         )
 
     def view_about(self) -> ViewAbout:
         """What a view must know. Safe from any thread."""
         return ViewAbout(
-            epoch=self.epoch,
-            world=self.settings.world,
-            version=__version__,
-            step_version=_core.STEP_VERSION,
-            scene=self._ruled_scene_message,
-            model=self.world.model.to_message(),
-            rate=self.rate,
-            tick=self._now,
+            **self._about_world(),
             balls=self._balls,
             reference_speed=self._reference_speed,
             regions=self._terms,
         )
+
+    def _about_world(self) -> dict[str, Any]:
+        """The fields of AboutWorld."""
+        return {
+            "epoch": self.epoch,
+            "world": self.settings.world,
+            "version": __version__,
+            "step_version": _core.STEP_VERSION,
+            "scene": self._ruled_scene_message,
+            "model": self.world.model.to_message(),
+            "rate": self.rate,
+            "tick": self._now,
+        }
 
     def status(self) -> Status:
         """How it goes. Safe from any thread."""

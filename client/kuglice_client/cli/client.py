@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import random
 import secrets
 import time
@@ -21,6 +20,16 @@ from kuglice.extras import require
 from kuglice.protocol import DEFAULT_ENDPOINT
 from kuglice_client.bots import BOTS
 from kuglice_client.cli.finishing import finished
+from kuglice_client.cli.options import (
+    AsJson,
+    FilmRate,
+    FilmStyle,
+    Render,
+    Seconds,
+    SummaryJson,
+    Wait,
+    write_summary,
+)
 from kuglice_client.client import Client
 from kuglice_client.settings import ClientSettings
 
@@ -55,16 +64,12 @@ def client(
         str | None,
         typer.Option(help=f"Who plays: {', '.join(BOTS)}. Without bot and name, you are a spectator."),
     ] = None,
-    seconds: Annotated[
-        float | None, typer.Option(min=0.0, help="Leave after this long. [default: on SIGINT or SIGTERM]")
-    ] = None,
-    wait: Annotated[float, typer.Option(min=0.0, help="Seconds to keep trying to join.")] = 10.0,
-    render: Annotated[
-        Path | None, typer.Option(help="Film what is seen: .mp4, .webm, .gif, or frame-%05d.png.")
-    ] = None,
-    fps: Annotated[int, typer.Option(min=1, max=240, help="Frames per second of the film.")] = 30,
+    seconds: Seconds = None,
+    wait: Wait = 10.0,
+    render: Render = None,
+    fps: FilmRate = 30,
     size: Annotated[str, typer.Option(help="Width and height of the film in pixels.")] = "1280x720",
-    style: Annotated[str, typer.Option(help="discs or fluid.")] = "discs",
+    style: FilmStyle = "discs",
     overlay: Annotated[
         list[str] | None, typer.Option(help="tick, tree; may be repeated. [default: tick]")
     ] = None,
@@ -97,10 +102,8 @@ def client(
             help="Write a JSON file per desync into this directory: first tick, balls, all differing bits."
         ),
     ] = None,
-    summary_json: Annotated[
-        Path | None, typer.Option(help="Write the closing figures to this file too.")
-    ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print the closing figures as JSON.")] = False,
+    summary_json: SummaryJson = None,
+    as_json: AsJson = False,
 ) -> None:
     """Join a server: play as a bot, or watch; film it.
 
@@ -144,9 +147,7 @@ def client(
         playing.close()
         if film is not None:
             summary |= finished(film)
-    if summary_json is not None:
-        summary_json.parent.mkdir(parents=True, exist_ok=True)
-        summary_json.write_text(json.dumps(summary, indent=2) + "\n")
+    write_summary(summary_json, summary)
     watching = settings.name is None and not as_json
     shown = {name: value for name, value in summary.items() if not (watching and name in OF_PLAYERS)}
     print_figures(f"Client {settings.name or '(spectator)'}", {"client": shown}, as_json=as_json)

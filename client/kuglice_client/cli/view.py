@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -17,6 +16,16 @@ from kuglice.cli.stop import stop_on_signals
 from kuglice.extras import require
 from kuglice.protocol import DEFAULT_ENDPOINT, Rectangle
 from kuglice_client.cli.finishing import finished
+from kuglice_client.cli.options import (
+    AsJson,
+    FilmRate,
+    FilmStyle,
+    Render,
+    Seconds,
+    SummaryJson,
+    Wait,
+    write_summary,
+)
 from kuglice_client.view import View, ViewSettings, parse_rectangle
 
 if TYPE_CHECKING:
@@ -53,22 +62,16 @@ def view(
         typer.Option(help="Bytes per second; far regions are told less often. [default: no bound]"),
     ] = None,
     pan: Annotated[str, typer.Option(help="Move by so many metres per second.", metavar="VX,VY")] = "0,0",
-    seconds: Annotated[
-        float | None, typer.Option(min=0.0, help="Leave after this long. [default: on SIGINT or SIGTERM]")
-    ] = None,
-    wait: Annotated[float, typer.Option(min=0.0, help="Seconds to keep trying to join.")] = 10.0,
-    render: Annotated[
-        Path | None, typer.Option(help="Film what is seen: .mp4, .webm, .gif, or frame-%05d.png.")
-    ] = None,
-    fps: Annotated[int, typer.Option(min=1, max=240, help="Frames per second of the film.")] = 30,
+    seconds: Seconds = None,
+    wait: Wait = 10.0,
+    render: Render = None,
+    fps: FilmRate = 30,
     width: Annotated[
         int, typer.Option(min=16, max=7680, help="Width of the film in pixels; the height follows.")
     ] = 1280,
-    style: Annotated[str, typer.Option(help="discs or fluid.")] = "discs",
-    summary_json: Annotated[
-        Path | None, typer.Option(help="Write the closing figures to this file too.")
-    ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print the closing figures as JSON.")] = False,
+    style: FilmStyle = "discs",
+    summary_json: SummaryJson = None,
+    as_json: AsJson = False,
 ) -> None:
     """Look at a part of a world: only what is in it is sent here.
 
@@ -105,9 +108,7 @@ def view(
         looking.close()
         if film is not None:
             summary |= finished(film)
-    if summary_json is not None:
-        summary_json.parent.mkdir(parents=True, exist_ok=True)
-        summary_json.write_text(json.dumps(summary, indent=2) + "\n")
+    write_summary(summary_json, summary)
     print_figures(f"View of {summary['world']}", {"view": summary}, as_json=as_json)
     if not summary["updates"]:
         STDERR.print("nothing was told")
