@@ -13,6 +13,8 @@ log = logging.getLogger(__name__)
 
 FIRST_SECONDS = 4.0
 """After which a link that nobody answers on has been given up."""
+RENEWED_SECONDS = 2.0
+"""A link that does come up has done so by then, where nothing has to be waited for but it."""
 EVERY_SECONDS = 1.0
 
 
@@ -23,17 +25,18 @@ class DatagramWatch:
         self._link = link
         self._look_at = time.monotonic() + FIRST_SECONDS
         self._were_up: bool | None = None
-        self._ever_up = False
+        self.missing = False
+        """Whether they did not get through when last looked at."""
 
     @property
-    def died(self) -> bool:
-        """Whether datagrams got through, and do not any more."""
-        return self._were_up is False and self._ever_up
+    def up(self) -> bool:
+        """Whether they got through when last looked at."""
+        return bool(self._were_up) and not self.missing
 
     def renewed(self) -> None:
-        """The link was opened anew: what does not come up now is not waited for."""
-        self._ever_up = False
-        self._look_at = time.monotonic() + FIRST_SECONDS
+        """The link was opened anew: they have their time to come up."""
+        self.missing = False
+        self._look_at = time.monotonic() + RENEWED_SECONDS
 
     def turn(self, now: float) -> None:
         """Look, now and then."""
@@ -45,7 +48,7 @@ class DatagramWatch:
             # Cut off altogether: that is told as silence.
             return
         up = "udp" in kinds
-        self._ever_up = self._ever_up or up
+        self.missing = not up
         if up == self._were_up:
             return
         if not up:

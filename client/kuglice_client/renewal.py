@@ -18,6 +18,8 @@ log = logging.getLogger(__name__)
 PATIENCE_SECONDS = 1.5
 """Of a stream that stays silent while the server answers, or of datagrams that are dead."""
 AGAIN_SECONDS = 10.0
+DATAGRAM_TRIES = 3
+"""In a row: what opens a link of datagrams is sent once, and lost like anything else; but some networks have none."""
 LOOK_SECONDS = 0.25
 
 
@@ -30,6 +32,7 @@ class Renewal:
         self._since: float | None = None
         self._not_before = 0.0
         self._look_at = 0.0
+        self._tries = 0
         self.renewals = 0
 
     def turn(self, now: float, *, silent: bool, answered: bool) -> None:
@@ -42,12 +45,19 @@ class Renewal:
             self._look_at = now + LOOK_SECONDS
             if not self._link.kinds:
                 self._link.begin_renewal()
-        broken = self._datagrams.died or (silent and (answered or self._since is not None))
-        if not broken:
+        if self._datagrams.up:
+            self._tries = 0
+        missing = self._datagrams.missing and self._tries < DATAGRAM_TRIES
+        if not missing and not (silent and (answered or self._since is not None)):
             self._since = None
             return
         if self._since is None:
             self._since = now
-        if now - self._since >= PATIENCE_SECONDS and now >= self._not_before:
-            self._since, self._not_before = None, now + AGAIN_SECONDS
-            self._link.begin_renewal()
+        if now - self._since < PATIENCE_SECONDS:
+            return
+        if missing:
+            self._tries += 1
+        elif now < self._not_before:
+            return
+        self._since, self._not_before = None, now + AGAIN_SECONDS
+        self._link.begin_renewal()
