@@ -1,6 +1,7 @@
 //! kuglice._core: the step and the rasteriser for Python. Conversion only, no logic.
 #![deny(unsafe_code)]
 
+mod arrays;
 mod errors;
 #[expect(
     unsafe_code,
@@ -9,6 +10,7 @@ mod errors;
 mod lease;
 mod model;
 mod raster;
+mod recording;
 mod regions;
 mod rules;
 mod world;
@@ -87,6 +89,6 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<lease::Lease>()?;
     module.add_class::<regions::Regions>()?;
     module.add_function(wrap_pyfunction!(random_uniform, module)?)?;
-    module.add_function(wrap_pyfunction!(world::recording, module)?)?;
+    module.add_function(wrap_pyfunction!(recording::recording, module)?)?;
     raster::register(module)
 }

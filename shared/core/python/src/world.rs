@@ -3,11 +3,12 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use kuglice_step::{Balls, Held, HeldKind, NewBall, Player, Recording, Team, Vec2, read_inputs};
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use kuglice_step::{Held, HeldKind, Player, Team, Vec2, read_inputs};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
+use crate::arrays::{new_balls, numbers, pairs_to_array, told_balls, vectors};
 use crate::errors::{named, raise};
 use crate::lease::Lease;
 use crate::model::Model;
@@ -51,92 +52,6 @@ impl World {
             )),
         }
     }
-}
-
-fn pairs_to_array<'py, T: numpy::Element + Copy>(
-    py: Python<'py>,
-    rows: &[[T; 2]],
-) -> Bound<'py, PyArray2<T>> {
-    let flat = PyArray1::from_slice(py, rows.as_flattened());
-    flat.reshape([rows.len(), 2]).expect("two numbers a row")
-}
-
-/// One number per ball, in id order.
-fn numbers<'py, T: numpy::Element + Copy>(
-    py: Python<'py>,
-    balls: &Balls,
-    numbers: &[T],
-) -> Bound<'py, PyArray1<T>> {
-    if balls.is_by_id() {
-        return PyArray1::from_slice(py, numbers);
-    }
-    PyArray1::from_iter(py, balls.by_id().map(|index| numbers[index]))
-}
-
-/// One vector per ball, in id order.
-fn vectors<'py>(py: Python<'py>, balls: &Balls, vectors: &[Vec2]) -> Bound<'py, PyArray2<f64>> {
-    let rows: Vec<[f64; 2]> = balls
-        .by_id()
-        .map(|index| [vectors[index].x, vectors[index].y])
-        .collect();
-    pairs_to_array(py, &rows)
-}
-
-fn new_balls(
-    py: Python<'_>,
-    position: &PyReadonlyArray2<'_, f64>,
-    velocity: &PyReadonlyArray2<'_, f64>,
-    radius: &PyReadonlyArray1<'_, f64>,
-    mass: &PyReadonlyArray1<'_, f64>,
-) -> PyResult<Vec<NewBall>> {
-    let count = radius.len();
-    for (name, shape) in [("position", position.shape()), ("velocity", velocity.shape())] {
-        if shape != [count, 2] {
-            return Err(named(
-                py,
-                "SceneError",
-                &format!("{name} has shape {shape:?}, it must be [{count}, 2]"),
-            ));
-        }
-    }
-    if mass.len() != count {
-        return Err(named(
-            py,
-            "SceneError",
-            &format!("mass has {} numbers, it must have {count}", mass.len()),
-        ));
-    }
-    let (position, velocity) = (position.as_array(), velocity.as_array());
-    let (radius, mass) = (radius.as_array(), mass.as_array());
-    let balls: Vec<NewBall> = (0..count)
-        .map(|i| NewBall {
-            position: Vec2::new(position[[i, 0]], position[[i, 1]]),
-            velocity: Vec2::new(velocity[[i, 0]], velocity[[i, 1]]),
-            radius: radius[i],
-            mass: mass[i],
-        })
-        .collect();
-    Ok(balls)
-}
-
-/// The same with an id for each.
-fn told_balls(
-    py: Python<'_>,
-    id: &PyReadonlyArray1<'_, u64>,
-    position: &PyReadonlyArray2<'_, f64>,
-    velocity: &PyReadonlyArray2<'_, f64>,
-    radius: &PyReadonlyArray1<'_, f64>,
-    mass: &PyReadonlyArray1<'_, f64>,
-) -> PyResult<Vec<(u64, NewBall)>> {
-    let balls = new_balls(py, position, velocity, radius, mass)?;
-    if id.len() != balls.len() {
-        return Err(named(
-            py,
-            "SceneError",
-            &format!("id has {} numbers, it must have {}", id.len(), balls.len()),
-        ));
-    }
-    Ok(id.as_array().iter().copied().zip(balls).collect())
 }
 
 #[pymethods]
@@ -347,42 +262,32 @@ impl World {
 
     #[getter]
     fn id<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u64>> {
-        {
-            let balls = &self.inner.state().balls;
-            numbers(py, balls, &balls.id)
-        }
+        let balls = &self.inner.state().balls;
+        numbers(py, balls, &balls.id)
     }
 
     #[getter]
     fn position<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        {
-            let balls = &self.inner.state().balls;
-            vectors(py, balls, &balls.position)
-        }
+        let balls = &self.inner.state().balls;
+        vectors(py, balls, &balls.position)
     }
 
     #[getter]
     fn velocity<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        {
-            let balls = &self.inner.state().balls;
-            vectors(py, balls, &balls.velocity)
-        }
+        let balls = &self.inner.state().balls;
+        vectors(py, balls, &balls.velocity)
     }
 
     #[getter]
     fn radius<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        {
-            let balls = &self.inner.state().balls;
-            numbers(py, balls, &balls.radius)
-        }
+        let balls = &self.inner.state().balls;
+        numbers(py, balls, &balls.radius)
     }
 
     #[getter]
     fn mass<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        {
-            let balls = &self.inner.state().balls;
-            numbers(py, balls, &balls.mass)
-        }
+        let balls = &self.inner.state().balls;
+        numbers(py, balls, &balls.mass)
     }
 
     #[getter]
@@ -437,22 +342,4 @@ impl World {
     fn lend(slf: Bound<'_, World>) -> PyResult<Lease> {
         Lease::open(slf)
     }
-}
-
-/// A run as bytes that the example `rerun` of kuglice-step can make again: the world as it is, then inputs per tick.
-#[pyfunction]
-pub fn recording<'py>(
-    py: Python<'py>,
-    world: PyRef<'_, World>,
-    ticks: Vec<Vec<u8>>,
-) -> PyResult<Bound<'py, PyBytes>> {
-    let ticks = ticks
-        .iter()
-        .map(|inputs| read_inputs(inputs))
-        .collect::<Result<_, _>>();
-    let recording = Recording {
-        world: world.inner.clone(),
-        ticks: ticks.map_err(|error| raise(py, &error))?,
-    };
-    Ok(PyBytes::new(py, &recording.to_bytes()))
 }
