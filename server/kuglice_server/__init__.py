@@ -1,5 +1,6 @@
 """The authority over a world: it steps, and what it says happened."""
 
-from kuglice_server.server import Server, ServerSettings
+from kuglice_server.server import Server
+from kuglice_server.settings import ServerSettings
 
 __all__ = ["Server", "ServerSettings"]

@@ -6,18 +6,14 @@ import logging
 import threading
 import time
 from collections import Counter
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from pathlib import Path
+from collections.abc import Callable
 from typing import Any, Self
 
 import zenoh
 
 from kuglice import Balls, Scene, World, __version__, _core
-from kuglice.errors import ProtocolError
 from kuglice.picture import reference_speed
 from kuglice.protocol import (
-    DEFAULT_ENDPOINT,
     About,
     Declared,
     Keys,
@@ -25,10 +21,10 @@ from kuglice.protocol import (
     ViewAbout,
     close_session,
     open_session,
-    refuse_exposed,
     server_configuration,
 )
 from kuglice_server.answer import Answers
+from kuglice_server.epoch import new_epoch
 from kuglice_server.history import History
 from kuglice_server.intake import Intake
 from kuglice_server.players import Players
@@ -36,64 +32,18 @@ from kuglice_server.publish import Publisher
 from kuglice_server.record import Record
 from kuglice_server.regions import RegionPublisher, choose_terms
 from kuglice_server.schedule import Schedule
+from kuglice_server.settings import ServerSettings
 from kuglice_server.tick_loop import TickLoop
 
-__all__ = ["Server", "ServerSettings"]
+__all__ = ["Server"]
 
 log = logging.getLogger(__name__)
 
 HISTORY_SECONDS = 60
 EARLIEST_SECONDS = 2
-MAX_GRACE = 3600.0
 WAITING_MESSAGES = 4096
-EPOCH_ORIGIN = 1_767_225_600 * 10**9
-"""The begin of 2026, in nanoseconds."""
-EPOCH_SHIFT, EPOCHS = 28, 1 << 36
 HASHED_BALLS = 100_000
 """Up to so many balls every state's hash is told."""
-
-
-@dataclass(frozen=True)
-class ServerSettings:
-    """How a world is served; none of it changes its bits.
-
-    `rate`: ticks per second of wall clock (None: the scene's). `snapshot_every`: ticks between published
-    snapshots (None: a second's worth). `hash_every`: ticks between states whose hash is told (None: every one,
-    or one per second where that would cost too much). `grace`: seconds for which a player whose link was cut
-    keeps its ball. `region_rate`: times per second that views are told of what they
-    look at. `threads`: how many share the work of a step. `insecure`:
-    listen on addresses that others can reach, although there are no accounts and no encryption yet.
-    """
-
-    world: str
-    listen: Sequence[str] = (DEFAULT_ENDPOINT,)
-    connect: Sequence[str] = ()
-    rate: float | None = None
-    snapshot_every: int | None = None
-    hash_every: int | None = None
-    region_rate: float = 10.0
-    record: Path | None = None
-    grace: float = 10.0
-    threads: int = 1
-    insecure: bool = False
-
-    def __post_init__(self) -> None:
-        if not self.listen and not self.connect:
-            raise ProtocolError("endpoints: none to listen on and none to connect to")
-        if not self.insecure:
-            refuse_exposed(self.listen)
-        if self.snapshot_every is not None and self.snapshot_every < 1:
-            raise ProtocolError(f"snapshot-every {self.snapshot_every}: must be at least 1 tick")
-        if self.hash_every is not None and self.hash_every < 1:
-            raise ProtocolError(f"hash-every {self.hash_every}: must be at least 1 tick")
-        if not 0 < self.region_rate <= 1000:
-            raise ProtocolError(
-                f"region-rate {self.region_rate}: must be above 0 and at most 1000 times per second"
-            )
-        if not 0 <= self.grace <= MAX_GRACE:
-            raise ProtocolError(f"grace {self.grace}: must be at least 0 and at most {MAX_GRACE:g} seconds")
-        if self.rate is not None and not 0 < self.rate <= 10_000:
-            raise ProtocolError(f"rate {self.rate}: must be above 0 and at most 10000 ticks per second")
 
 
 class Server:
@@ -102,7 +52,7 @@ class Server:
     def __init__(self, scene: Scene, settings: ServerSettings) -> None:
         self.settings = settings
         self.world = World(scene, threads=settings.threads)
-        self.epoch = _epoch()
+        self.epoch = new_epoch()
         self.rate = settings.rate if settings.rate is not None else scene.tick_rate
         self.counters: Counter[str] = Counter()
         self._snapshot_every = settings.snapshot_every or max(1, round(self.rate))
@@ -269,12 +219,3 @@ class Server:
 
     def __exit__(self, *_: object) -> None:
         self.close()
-
-
-def _epoch() -> int:
-    """Grows from run to run, so that a restarted server never says an epoch again.
-
-    No server starts twice within the 0.27 s that are one; a finer clock, or one that began earlier, would cost
-    bytes in every message.
-    """
-    return (time.time_ns() - EPOCH_ORIGIN >> EPOCH_SHIFT) % EPOCHS

@@ -17,7 +17,8 @@ from kuglice.cli.logs import STDERR, log_to_stderr
 from kuglice.cli.stop import stop_on_signals
 from kuglice.cli.threads import Threads
 from kuglice.protocol import DEFAULT_ENDPOINT
-from kuglice_server.server import Server, ServerSettings
+from kuglice_server.server import Server
+from kuglice_server.settings import ServerSettings
 
 __all__ = ["register"]
 
