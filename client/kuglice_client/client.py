@@ -30,7 +30,8 @@ from kuglice_client.pinging import Pinging
 from kuglice_client.prediction import Floats, Ids, Prediction
 from kuglice_client.reconcile import Reconciler
 from kuglice_client.renewal import Renewal
-from kuglice_client.screen import FRAME_RATE, Frames, Screen
+from kuglice_client.run_loop import Frames, run_loop
+from kuglice_client.screen import Screen
 from kuglice_client.settings import ClientSettings
 from kuglice_client.summary import figures, summarise
 from kuglice_client.totals import Totals
@@ -43,7 +44,6 @@ __all__ = ["Client"]
 log = logging.getLogger(__name__)
 
 PREDICTED_SECONDS = 1.5
-IDLE_SECONDS = 0.002
 STALL_SECONDS = 2.0
 SILENCE_SECONDS = 0.5
 SILENCE_TICKS = 4
@@ -174,19 +174,13 @@ class Client:
         `each_frame` gets the client and alpha, `fps` times per second: a film leaves no frame out. Without `fps`
         it is as on a screen, which does.
         """
-        begin = time.monotonic()
-        frames = Frames(fps or FRAME_RATE, all_of_them=fps is not None)
-        while not self.stop.is_set():
-            now = time.monotonic()
-            alpha = self.turn(now)
-            played = now - begin if seconds is None else min(now - begin, seconds)
-            for _ in range(frames.due(played)):
-                self.frame(time.monotonic())
-                if each_frame is not None:
-                    each_frame(self, alpha)
-            if seconds is not None and now - begin >= seconds:
-                break
-            self.stop.wait(IDLE_SECONDS)
+
+        def frame(alpha: float) -> None:
+            self.frame(time.monotonic())
+            if each_frame is not None:
+                each_frame(self, alpha)
+
+        run_loop(self.turn, frame, Frames(fps), stop=self.stop, seconds=seconds)
 
     def summary(self) -> dict[str, Any]:
         """What this session was like, as values for JSON."""

@@ -1,8 +1,6 @@
-"""What a person at the screen sees: when frames are drawn, and how the picture goes from one prediction to another."""
+"""What a person at the screen sees: how the picture goes from one prediction to another, and what is seen of it."""
 
 from __future__ import annotations
-
-import math
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,29 +9,10 @@ from kuglice_client.correction import Correction
 from kuglice_client.feel import Feel
 from kuglice_client.prediction import Drawn, Prediction
 
-__all__ = ["FRAME_RATE", "Frames", "Screen"]
+__all__ = ["Screen"]
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.uint64]
-
-FRAME_RATE = 60.0
-"""Of a screen that nobody looks at: what is seen is counted per frame, so there must be some."""
-
-
-class Frames:
-    """When frames are due. A screen leaves out those that it has no time for, a film has all of them."""
-
-    def __init__(self, rate: float, *, all_of_them: bool) -> None:
-        self._rate = rate
-        self._all = all_of_them
-        self._drawn = 0
-
-    def due(self, played: float) -> int:
-        """How many are to be drawn after that many seconds of play."""
-        # The first one is due once time has passed at all.
-        until = math.ceil(played * self._rate)
-        due, self._drawn = max(0, until - self._drawn), max(until, self._drawn)
-        return due if self._all else min(1, due)
 
 
 class Screen:

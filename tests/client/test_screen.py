@@ -7,7 +7,7 @@ import pytest
 
 from kuglice.inputs import Thrust
 from kuglice_client.prediction import Prediction
-from kuglice_client.screen import Frames, Screen
+from kuglice_client.screen import Screen
 
 RATE = 60.0
 OTHER = 2
@@ -34,16 +34,6 @@ def played(authority):
     screen.alpha = 0.5
     screen.frame(1.0, prediction)
     return screen, prediction, confirmed
-
-
-def test_a_screen_draws_a_frame_when_it_is_due_and_leaves_out_what_it_has_no_time_for():
-    frames = Frames(10.0, all_of_them=False)
-    assert [frames.due(at) for at in (0.0, 0.01, 0.05, 0.11, 0.12, 0.95, 0.96)] == [0, 1, 0, 1, 0, 1, 0]
-
-
-def test_a_film_has_all_of_its_frames():
-    frames = Frames(10.0, all_of_them=True)
-    assert [frames.due(at) for at in (0.0, 0.01, 0.11, 0.95, 0.96)] == [0, 1, 1, 8, 0]
 
 
 def test_a_rollback_does_not_move_the_picture_at_once(authority, played):

@@ -19,6 +19,7 @@ from kuglice_client.ask import Asked
 from kuglice_client.correction import Correction
 from kuglice_client.join import find_world
 from kuglice_client.link import Link
+from kuglice_client.run_loop import Frames, run_loop
 from kuglice_client.view.accuracy import Accuracy
 from kuglice_client.view.clock import ViewClock
 from kuglice_client.view.hearing import Hearing
@@ -40,7 +41,6 @@ log = logging.getLogger(__name__)
 Floats = NDArray[np.float64]
 Ids = NDArray[np.uint64]
 
-IDLE_SECONDS = 0.002
 BALANCED_EVERY_SECONDS = 0.5
 SILENCE_SECONDS = 3.0
 ASKED_EVERY_SECONDS = 1.0
@@ -106,18 +106,12 @@ class View:
         each_frame: Callable[[View, float], None] | None = None,
     ) -> None:
         """Look until `stop`, or for that long; `each_frame` gets the view and alpha, `fps` times per second."""
-        begin = time.monotonic()
-        frames = 0
-        while not self.stop.is_set():
-            now = time.monotonic()
-            alpha = self.turn(now)
-            seen = now - begin if seconds is None else min(now - begin, seconds)
-            while fps is not None and each_frame is not None and seen > frames / fps:
+
+        def frame(alpha: float) -> None:
+            if each_frame is not None:
                 each_frame(self, alpha)
-                frames += 1
-            if seconds is not None and now - begin >= seconds:
-                break
-            self.stop.wait(IDLE_SECONDS)
+
+        run_loop(self.turn, frame, Frames(fps), stop=self.stop, seconds=seconds)
 
     @property
     def in_sight(self) -> NDArray[np.bool_]:
