@@ -37,6 +37,7 @@ class Renewal:
 
     def turn(self, now: float, *, silent: bool, answered: bool) -> None:
         """`silent`: the stream brings nothing. `answered`: the server has just answered a question."""
+        self._datagrams.turn(now)
         if self._link.renewed():
             self.renewals += 1
             self._datagrams.renewed()

@@ -8,14 +8,16 @@ from kuglice_client.totals import Figure
 
 if TYPE_CHECKING:
     from kuglice_client.client import Client
+    from kuglice_client.replica import Replica
+    from kuglice_client.screen import Screen
 
 __all__ = ["figures", "summarise"]
 
 
-def figures(client: Client) -> dict[str, Figure]:
+def figures(replica: Replica, screen: Screen) -> dict[str, Figure]:
     """Of the present run of the server only; Totals adds them up over all runs."""
-    outbox, checks = client.outbox, client.reconciler
-    prediction, follower = client.prediction, client.follower
+    outbox = None if replica.player is None else replica.player.outbox
+    checks, prediction, follower = replica.reconciler, replica.prediction, replica.follower
     return {
         "hashes_checked": checks.hashes_checked,
         "hash_mismatches": checks.hash_mismatches,
@@ -29,26 +31,28 @@ def figures(client: Client) -> dict[str, Figure]:
         "rollbacks": prediction.rollbacks,
         "deepest_rollback": prediction.deepest_rollback,
         "ticks_rerun": prediction.ticks_rerun,
-        "worst_correction_radii": client.screen.correction.worst_jump,
+        "worst_correction_radii": screen.correction.worst_jump,
         "messages_missed": follower.missed_messages,
         "ticks_healed_by_repeats": follower.healed_by_repeats,
         "ticks_healed_by_history": follower.healed_by_history,
         "ticks_unusable": follower.unusable,
-        "gaps_skipped": client.healing.gaps_skipped,
-        "silences_asked": client.healing.silences,
+        "gaps_skipped": replica.healing.gaps_skipped,
+        "silences_asked": replica.healing.silences,
     }
 
 
 def summarise(client: Client, *, seconds: float) -> dict[str, Any]:
     """Values for JSON. `agreed`: every hash and every snapshot was the server's."""
-    summed = client.totals.with_past(figures(client))
+    replica = client.replica
+    joined = replica.joined
+    summed = client.totals.with_past(figures(replica, client.screen))
     traffic = client.link.traffic
     rates = traffic.per_second(seconds)
     return {
         "name": client.settings.name,
-        "number": client.joined.number,
-        "world": client.joined.about.world,
-        "epoch": client.joined.epoch,
+        "number": joined.number,
+        "world": joined.about.world,
+        "epoch": joined.epoch,
         "links": "+".join(client.link.kinds),
         "link_renewals": client.renewal.renewals,
         "seconds": seconds,
@@ -62,8 +66,8 @@ def summarise(client: Client, *, seconds: float) -> dict[str, Any]:
         "messages_thrown_away": client.totals.messages_thrown_away,
         "malformed_messages": client.link.malformed + client.totals.malformed_snapshots,
         "rejoins": client.totals.rejoins,
-        "lead_ticks": client.clock.lead,
-        "ticks_behind": client.follower.behind,
+        "lead_ticks": replica.clock.lead,
+        "ticks_behind": replica.follower.behind,
         "step_milliseconds": 1000 * client.step_seconds,
         "bytes_per_second_received": rates["received"],
         "bytes_per_second_ticks": rates.get("ticks", 0.0),
@@ -75,7 +79,7 @@ def summarise(client: Client, *, seconds: float) -> dict[str, Any]:
 
 
 def _feel(client: Client, summed: dict[str, Figure], seconds: float) -> dict[str, Any]:
-    feel, correction, clock = client.screen.feel, client.screen.correction, client.clock
+    feel, correction, clock = client.screen.feel, client.screen.correction, client.replica.clock
     accepted, rollbacks = summed["inputs_accepted"], summed["rollbacks"]
     return {
         "inputs": feel.inputs,

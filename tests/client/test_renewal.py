@@ -16,6 +16,9 @@ class Datagrams:
         self.missing = False
         self.up = False
 
+    def turn(self, now: float) -> None:
+        pass
+
     def renewed(self) -> None:
         self.missing = False
 

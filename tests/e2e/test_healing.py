@@ -47,9 +47,9 @@ def test_a_world_that_went_wrong_is_found_out_reported_and_replaced(server, endp
         flipped, tick = client.confirmed.clone(), client.confirmed.tick
         playing(client, lambda: client.confirmed.tick > tick)
         flipped.step([Kick(ball=3, vx=1e-9, vy=0.0)])
-        assert client.follower.rerun(flipped, client.confirmed.tick)
-        client.follower.replace(flipped)
-        wrong = client.reconciler
+        assert client.replica.follower.rerun(flipped, client.confirmed.tick)
+        client.replica.follower.replace(flipped)
+        wrong = client.replica.reconciler
         playing(client, lambda: wrong.hash_mismatches > 0)
         first_wrong = wrong.wrong_since
         assert first_wrong is not None
@@ -90,7 +90,7 @@ def test_a_client_that_was_away_finds_the_rest_in_the_history(start, scene, endp
         reached = client.confirmed.tick
         until(lambda: len(Replay.load(record)) > reached + 1500, what="the world goes on without her")
         playing(client, lambda: client.confirmed.tick > reached + 1500)
-        playing(client, lambda: client.follower.behind < 60)
+        playing(client, lambda: client.replica.follower.behind < 60)
         summary = client.summary()
     server.signal(2)
     server.figures()

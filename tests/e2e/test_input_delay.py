@@ -23,12 +23,14 @@ def test_an_input_acts_so_many_ticks_later(server, endpoint, tmp_path):
             until(lambda: client.turn(time.monotonic()) >= 0 and condition())
 
         playing(lambda: client.own is not None and client.confirmed.tick > 30)
-        reached = client.prediction.world.tick
+        reached = client.replica.prediction.world.tick
         client.act(Kick(vx=0.0, vy=3.0))
-        due = math.floor(client.clock.target(time.monotonic()))
+        due = math.floor(client.replica.clock.target(time.monotonic()))
         # Told that it will act as soon as it has come, she waits until it has.
-        playing(lambda: client.outbox.accepted == 1 and client.confirmed.tick > due + 3 * DELAY)
-        late = client.outbox.late
+        playing(
+            lambda: client.replica.player.outbox.accepted == 1 and client.confirmed.tick > due + 3 * DELAY
+        )
+        late = client.replica.player.outbox.late
     server.signal(2)
     server.figures()
     replay = Replay.load(tmp_path / "run.kuglice")

@@ -20,12 +20,12 @@ def test_a_restarted_server_is_noticed_and_joined(start, scene, endpoint, tmp_pa
             client.turn(time.monotonic())
             return True
 
-        first = client.epoch
+        first = client.replica.joined.epoch
         until(lambda: turned() and client.confirmed.tick > 60, what="a second of the first run")
         before.kill()
         after = start(*arguments, tmp_path / "after.kuglice")
-        until(lambda: turned() and client.epoch != first, what="the new epoch is noticed")
-        assert client.epoch > first
+        until(lambda: turned() and client.replica.joined.epoch != first, what="the new epoch is noticed")
+        assert client.replica.joined.epoch > first
         until(lambda: turned() and client.confirmed.tick > 120, what="two seconds of the second run")
         until(lambda: turned() and client.own is not None, what="a ball in the new world")
         summary = client.summary()

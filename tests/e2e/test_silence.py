@@ -23,9 +23,11 @@ def test_ticks_are_asked_for_where_the_stream_brings_none_any_more(server, endpo
 
         until(lambda: turned(lambda: client.confirmed.tick > LAST_HEARD + 30), what="a silence is noticed")
         client.act(Thrust(x=5.0, y=0.0))
-        until(lambda: turned(lambda: client.outbox.accepted == 1), what="what acts is known to")
+        until(
+            lambda: turned(lambda: client.replica.player.outbox.accepted == 1), what="what acts is known to"
+        )
         until(lambda: turned(lambda: client.confirmed.tick > LAST_HEARD + 120), what="it goes on")
-        lead = client.prediction.world.tick - client.confirmed.tick
+        lead = client.replica.prediction.world.tick - client.confirmed.tick
         summary = client.summary()
     server.signal(2)
     server.figures()

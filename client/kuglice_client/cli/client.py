@@ -200,8 +200,9 @@ def _film_settings(path: Path | None, look: _Look) -> FilmSettings | None:
 def _film(playing: Client, settings: FilmSettings) -> Film:
     from kuglice_client.filming import Film  # noqa: PLC0415 - few clients film
 
-    settings = replace(settings, own=playing.joined.number)
-    return Film(playing.joined.scene, settings, balls=playing.confirmed.count)
+    joined = playing.replica.joined
+    settings = replace(settings, own=joined.number)
+    return Film(joined.scene, settings, balls=playing.confirmed.count)
 
 
 def _shower(film: Film | None, look: _Look, line: Status) -> Callable[[Client, float], None]:
@@ -213,7 +214,7 @@ def _shower(film: Film | None, look: _Look, line: Status) -> Callable[[Client, f
             film.add(playing.moment(alpha, nodes="tree" in look.overlays))
         if time.monotonic() - told >= 1:
             told = time.monotonic()
-            checks = playing.reconciler
+            checks = playing.replica.reconciler
             line.update(
                 f"tick {playing.confirmed.tick:,}, {checks.hashes_checked:,} hashes checked, "
                 f"{checks.hash_mismatches} different"

@@ -1,0 +1,204 @@
+"""The server's world, here: confirmed by its ticks, and predicted ahead of them."""
+
+from __future__ import annotations
+
+import logging
+import math
+import time
+from collections.abc import Container
+
+from kuglice.protocol import History, Keys, Tick
+from kuglice.study.recorder import StudyRecorder
+from kuglice_client.clock import Clock
+from kuglice_client.follow import Follower
+from kuglice_client.healing import Healing
+from kuglice_client.join import Joined
+from kuglice_client.link import Link
+from kuglice_client.pinging import Pinging
+from kuglice_client.player import Player
+from kuglice_client.prediction import Prediction
+from kuglice_client.reconcile import Reconciler
+from kuglice_client.screen import Screen
+from kuglice_client.settings import ClientSettings
+from kuglice_client.stream import Stream
+from kuglice_client.totals import Totals
+
+__all__ = ["Replica"]
+
+log = logging.getLogger(__name__)
+
+PREDICTED_SECONDS = 1.5
+LAG_SECONDS = 2.0
+CONFIRM_SECONDS = 0.05
+PREDICT_SECONDS = 0.012
+"""Of one turn: running forward again that takes longer goes on in the next, and frames come in between."""
+
+
+class Replica:
+    """Made by joining one run of the server, thrown away when another one is joined.
+
+    A turn is: `receive`, `heal`, `advance`. `player` is None for a spectator.
+    """
+
+    def __init__(
+        self,
+        joined: Joined,
+        link: Link,
+        keys: Keys,
+        settings: ClientSettings,
+        *,
+        screen: Screen,
+        study: StudyRecorder | None,
+        totals: Totals,
+        now: float,
+    ) -> None:
+        about = joined.about
+        self.joined = joined
+        self._link = link
+        self._screen = screen
+        self._study = study
+        self._lagging = False
+        self.stream = Stream(link, joined, lose=settings.lose, totals=totals, now=now)
+        self.follower = Follower(joined.world)
+        self.reconciler = Reconciler(
+            self.follower,
+            snapshot_every=about.snapshot_every if settings.check_snapshots else None,
+            reports=settings.desync_reports,
+            step_version=about.step_version,
+        )
+        self.healing = Healing(
+            link, keys, epoch=joined.epoch, follower=self.follower, reconciler=self.reconciler
+        )
+        self.prediction = Prediction(joined.world, limit=max(4, round(PREDICTED_SECONDS * about.rate)))
+        self.clock = Clock(
+            rate=about.rate,
+            tick=about.tick,
+            now=now,
+            round_trip=joined.round_trip,
+            input_delay=settings.input_delay,
+            in_order="udp" not in link.kinds,
+        )
+        self._pinging = Pinging(link, keys, epoch=joined.epoch, now=now)
+        self.player = (
+            None
+            if joined.number is None
+            else Player(
+                joined,
+                settings,
+                joined.number,
+                clock=self.clock,
+                prediction=self.prediction,
+                feel=screen.feel,
+                study=study,
+            )
+        )
+
+    def receive(self, now: float, *, ignored: Container[int]) -> int | None:
+        """Take in what came. The epoch of another run of the server that says something, and is not `ignored`."""
+        # Snapshots first: one that is ahead waits for its tick, one that is far behind cannot be compared.
+        for whole in self.stream.snapshots():
+            if self.reconciler.received(whole):
+                self._replaced(now)
+        for message in self.stream.ticks(now, ignored=ignored):
+            if message.epoch != self.joined.epoch:
+                return message.epoch
+            self._heard(message, now)
+        return None
+
+    def heal(self, now: float) -> None:
+        """Ask for what is missing, and take in what was answered."""
+        silent = self.stream.silent(now)
+        if self.healing.turn(now, silent=silent):
+            self._replaced(now)
+        if self.healing.brought is not None:
+            self._brought(self.healing.brought, now, silent=silent)
+        round_trip = self._pinging.turn(now, self.follower.world.tick - 1)
+        if round_trip is not None:
+            self.clock.answered(round_trip)
+
+    def advance(self, now: float) -> float:
+        """Confirm, predict up to now, send. Returns how far the drawn state is from one tick to the next."""
+        target = self.clock.target(now)
+        # Who has not even confirmed what is known has no time for guesses.
+        confirmed = self._confirm(now)
+        self._predict(math.floor(target), now, step=confirmed)
+        if self.player is not None:
+            message = self.player.message(now, self.follower.world.tick)
+            if message is not None:
+                self._link.send(message)
+        return max(0.0, min(1.0, target - self.prediction.shown[1].tick))
+
+    def _heard(self, message: Tick, now: float) -> None:
+        self._screen.feel.heard(now)
+        self.clock.heard(message.end, now)
+        if self.player is not None:
+            self.player.answered(message.outcomes(self.player.outbox.number), now)
+        self.follower.take(message)
+
+    def _brought(self, history: History, now: float, *, silent: bool) -> None:
+        """Ticks from the history stand in for a stream that has stopped."""
+        if self.player is not None:
+            self.player.answered(history.acting(self.player.outbox.number), self.stream.heard_at)
+        if silent:
+            self.clock.heard(history.end, now)
+            self._screen.feel.heard(now)
+
+    def _confirm(self, now: float) -> bool:
+        """Step through what is known, or, if that is much, through some of it. Whether that was all."""
+        done = True
+        for step in self.follower.advance():
+            self.prediction.confirm(step.entry)
+            self.reconciler.confirmed(step)
+            if self._study is not None:
+                self._study.tick(now, step.entry.tick, step.entry.inputs, step.entry.state_hash)
+            if self.reconciler.compare_waiting():
+                self._replaced(now)
+                break
+            if time.monotonic() - now > CONFIRM_SECONDS:
+                done = False
+                break
+        if self.follower.behind == 0:
+            self._screen.feel.caught_up(time.monotonic())
+        self._note_lag()
+        return done
+
+    def _predict(self, tick: int, now: float, *, step: bool) -> None:
+        """Run forward again what was wrong, then on to `tick` if there is time to `step`.
+
+        What is too much for this turn waits for the next.
+        """
+        confirmed, prediction = self.follower.world, self.prediction
+        until = time.monotonic() + PREDICT_SECONDS
+
+        def in_time() -> bool:
+            return time.monotonic() < until
+
+        reached = prediction.world.tick
+        if prediction.reconcile(confirmed, in_time) and self._study is not None:
+            self._study.rollback(now, confirmed.tick, reached)
+        self._switch(now)
+        if tick > prediction.shown[1].tick and self.player is not None:
+            self.player.let_bot_act(now)
+        while step and prediction.world.tick < tick and in_time() and prediction.may_step(confirmed):
+            prediction.step()
+            self._switch(now)
+
+    def _replaced(self, now: float) -> None:
+        """The confirmed world is another now: the server's."""
+        self.prediction.distrust()
+        if self._study is not None:
+            self._study.state(now, self.follower.world)
+
+    def _switch(self, now: float) -> None:
+        before = self.prediction.switched(self.follower.world)
+        if before is not None:
+            self._screen.switched(before, self.prediction, now=now, rate=self.joined.about.rate)
+
+    def _note_lag(self) -> None:
+        behind = self.follower.behind
+        if not self._lagging and behind > LAG_SECONDS * self.joined.about.rate:
+            self._lagging = True
+            log.warning("%d ticks behind the stream: this machine steps slower than the server", behind)
+        elif self._lagging and behind == 0:
+            self._lagging = False
+            log.info("caught up with the stream")
