@@ -6,7 +6,7 @@ import numpy as np
 
 from kuglice.errors import ProtocolError
 from kuglice.protocol import MAX_REGION_BALLS, Keys, Nodes, Region, ViewAbout, decode
-from kuglice_client.view.known import Told
+from kuglice_client.view.told import Told
 
 __all__ = ["Hearing"]
 
@@ -14,7 +14,6 @@ DRIFT = 1.05
 """How much faster than it says a server's clock may run."""
 AHEAD_SECONDS = 10.0
 """Which a server that was late may catch up with in no time."""
-"""How far a server may be ahead of its rate: less than makes a view begin anew."""
 
 
 class Hearing:

@@ -4,10 +4,6 @@ Regions are told of ticks that are multiples of `every`. At each of those the wo
 goes into the log of its tick; if the view is past that tick, it goes back to the world that was kept, takes in all
 that the log has, and steps forward again. So an update acts where it belongs, however late it came, and what the view
 ends up with depends on what it was told, not on when.
-
-A region tells all its balls, and the newest tick wins. A ball that its region does not list any more may have gone
-over to another one, which tells it sooner or later: it stays if it is thought to be in a followed region whose last
-news is older, else it goes.
 """
 
 from __future__ import annotations
@@ -16,44 +12,18 @@ from collections import OrderedDict
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field
 
-import numpy as np
-from numpy.typing import NDArray
-
 from kuglice import BallStates, Model, Scene, World
 from kuglice.errors import StepError
+from kuglice_client.view.mosaic import Compare, Mosaic
+from kuglice_client.view.told import Floats, Node, Told
 
-__all__ = ["KnownWorld", "Told"]
+__all__ = ["KnownWorld"]
 
 KEPT_SECONDS = 3.0
 AHEAD_SECONDS = 3.0
 
-Floats = NDArray[np.float64]
-Ids = NDArray[np.uint64]
-Node = NDArray[np.uint32]
 _Plays = tuple[int, int | None]
 _Holds = tuple[int, str, float, float, float]
-
-
-@dataclass(frozen=True)
-class Told:
-    """All balls of `node` in state(`tick`)."""
-
-    tick: int
-    node: int
-    id: Ids
-    position: Floats
-    velocity: Floats
-    radius: Floats
-    mass: Floats
-
-
-@dataclass
-class _Kept:
-    """How the world came to a tick, before anything that was told of it."""
-
-    world: World
-    owner: Node
-    news: dict[int, int]
 
 
 @dataclass
@@ -80,7 +50,7 @@ class KnownWorld:
         tick: int,
         every: int,
         node_of: Callable[[Floats], Node],
-        compare: Callable[[Ids, Floats, Floats], None],
+        compare: Compare,
     ) -> None:
         self._scene = scene
         self._model = model
@@ -98,19 +68,22 @@ class KnownWorld:
         self._begin(tick)
 
     def _begin(self, tick: int) -> None:
-        self.world = World.with_balls(self._scene, tick, BallStates.none(), self._model)
-        self._owner = np.empty(0, np.uint32)
-        self._news: dict[int, int] = {}
-        self._kept: OrderedDict[int, _Kept] = OrderedDict()
+        self._now = Mosaic.of(World.with_balls(self._scene, tick, BallStates.none(), self._model))
+        self._kept: OrderedDict[int, Mosaic] = OrderedDict()
         self._log: dict[int, _Log] = {}
         self._redo: int | None = None
         if tick % self._every == 0:
             self._keep()
 
+    @property
+    def world(self) -> World:
+        """The balls as they are thought to be now. Another object after a jump."""
+        return self._now.world
+
     def follow(self, nodes: Collection[int]) -> None:
         """Keep what is in these nodes, and forget what was told of others."""
         self._followed = frozenset(nodes)
-        self._forget_others()
+        self._now.keep_only(self._followed)
 
     def take(self, told: Told) -> bool:
         """Note an update for its tick. Whether it was new and not too old."""
@@ -157,13 +130,10 @@ class KnownWorld:
         kept = self._kept.get(tick)
         if kept is None:
             return None
-        now = (self.world, self._owner, self._news)
-        self.world, self._owner, self._news = kept.world.clone(), kept.owner.copy(), dict(kept.news)
-        self._forget_others()
-        self._take_in(compare=False)
-        made = self.world
-        self.world, self._owner, self._news = now
-        return made
+        then = kept.clone()
+        then.keep_only(self._followed)
+        self._take_in(then, compare=False)
+        return then.world
 
     def told_of(self, tick: int) -> frozenset[int]:
         """The nodes that were told of at that tick."""
@@ -197,10 +167,9 @@ class KnownWorld:
         if tick < reached:
             self.rewinds += 1
             self.ticks_rerun += reached - tick
-        self.world.copy_from(kept.world)
-        self._owner, self._news = kept.owner.copy(), dict(kept.news)
-        self._forget_others()
-        self._take_in()
+        self._now.copy_from(kept)
+        self._now.keep_only(self._followed)
+        self._take_in(self._now)
         self._run(reached)
 
     def _run(self, tick: int) -> None:
@@ -211,16 +180,15 @@ class KnownWorld:
     def _arrive(self) -> None:
         if self.world.tick % self._every == 0:
             self._keep()
-            self._take_in()
+            self._take_in(self._now)
 
     def _keep(self) -> None:
         tick = self.world.tick
         kept = self._kept.get(tick)
         if kept is None:
-            self._kept[tick] = _Kept(self.world.clone(), self._owner.copy(), dict(self._news))
+            self._kept[tick] = self._now.clone()
         else:
-            kept.world.copy_from(self.world)
-            kept.owner, kept.news = self._owner.copy(), dict(self._news)
+            kept.copy_from(self._now)
 
     def _forget_old(self) -> None:
         while self._kept and next(iter(self._kept)) < self.world.tick - self._kept_ticks:
@@ -228,66 +196,21 @@ class KnownWorld:
             for old in [other for other in self._log if other <= tick]:
                 del self._log[old]
 
-    def _take_in(self, *, compare: bool = True) -> None:
-        """All that was told of the tick that the world is at."""
-        tick = self.world.tick
-        log = self._log.get(tick)
+    def _take_in(self, mosaic: Mosaic, *, compare: bool = True) -> None:
+        """All that was told of the tick that it is at."""
+        log = self._log.get(mosaic.world.tick)
         if log is None:
             return
         if log.holding is not None:
-            self.world.hold(*log.holding)
+            mosaic.world.hold(*log.holding)
         regions = [told for told in log.regions.values() if told.node in self._followed]
         if regions:
-            self._put_right(tick, regions, log.fresh if compare else set())
+            mosaic.put_right(
+                regions,
+                log.fresh if compare else set(),
+                followed=self._followed,
+                node_of=self._node_of,
+                compare=self._compare,
+            )
             if compare:
                 log.fresh.clear()
-
-    def _put_right(self, tick: int, regions: list[Told], fresh: set[int]) -> None:
-        count = [len(told.id) for told in regions]
-        ids = np.concatenate([told.id for told in regions])
-        owner = np.repeat(np.array([told.node for told in regions], np.uint32), count)
-        order = np.argsort(ids, kind="stable")
-        # A ball is in one node; should two claim it, one is as good as the other.
-        order = order[np.concatenate([[True], np.diff(ids[order]) > 0])] if len(ids) else order
-        position, velocity, radius, mass = (
-            np.concatenate([getattr(told, name) for told in regions])[order]
-            for name in ("position", "velocity", "radius", "mass")
-        )
-        ids, owner = ids[order], owner[order]
-        before_id, before = self.world.id, self.world.position
-        for told in regions:
-            self._news[told.node] = tick
-        rows = np.searchsorted(before_id, ids)
-        known = rows < len(before_id)
-        known[known] = before_id[rows[known]] == ids[known]
-        compared = known & np.isin(owner, np.array(sorted(fresh), np.uint32))
-        if compared.any():
-            off = np.hypot(*(before[rows[compared]] - position[compared]).T) / radius[compared]
-            self._compare(ids[compared], position[compared], off)
-        stays = self._stays(tick, before, np.array([told.node for told in regions], np.uint32))
-        stays[rows[known]] = True
-        self.world.replace(before_id[~stays], BallStates(ids, position, velocity, radius, mass))
-        now_id = self.world.id
-        owners = np.empty(len(now_id), np.uint32)
-        owners[np.searchsorted(now_id, before_id[stays])] = self._owner[stays]
-        owners[np.searchsorted(now_id, ids)] = owner
-        self._owner = owners
-
-    def _stays(self, tick: int, position: Floats, told: Node) -> NDArray[np.bool_]:
-        """Which balls stay although a region that was told of does not list them; those change hands."""
-        stays = np.ones(len(position), np.bool_)
-        missing = np.flatnonzero(np.isin(self._owner, told))
-        if len(missing):
-            there = self._node_of(position[missing])
-            awaited = [self._news.get(int(node), -1) < tick and int(node) in self._followed for node in there]
-            stays[missing] = awaited
-            self._owner[missing[stays[missing]]] = there[stays[missing]]
-        return stays
-
-    def _forget_others(self) -> None:
-        if not len(self._owner):
-            return
-        here = np.isin(self._owner, np.fromiter(self._followed, np.uint32, len(self._followed)))
-        if not here.all():
-            self.world.replace(self.world.id[~here], BallStates.none())
-            self._owner = self._owner[here]

@@ -10,7 +10,8 @@ import pytest
 
 import kuglice as kg
 from kuglice import _core
-from kuglice_client.view.known import KnownWorld, Told
+from kuglice_client.view.known import KnownWorld
+from kuglice_client.view.told import Told
 
 EVERY = 6
 DEPTH = 2
