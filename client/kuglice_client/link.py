@@ -129,7 +129,7 @@ class Link:
             self._opening = _Opening(self._configuration)
 
     def renewed(self) -> bool:
-        """Whether another session is open by now; then everything goes over it from here on, and the old one ends.
+        """Whether another session is open by now; then all that is said and asked goes over it, and the old one ends.
 
         The server sees no difference: the token is never gone.
         """
@@ -140,7 +140,8 @@ class Link:
             return False
         old, declared = self.session, [one for one in self._declared if one is not self._goodbye]
         self.session, self._declared, self._goodbye = session, [], None
-        self.listen(self._keys, snapshots=self._snapshots is not None)
+        if self._ticks is not None:
+            self.listen(self._keys, snapshots=self._snapshots is not None)
         if self._who is not None:
             self.show(*self._who)
         close_session(old, reversed(declared), timeout=0.0)

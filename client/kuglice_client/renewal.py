@@ -35,13 +35,21 @@ class Renewal:
         self._tries = 0
         self.renewals = 0
 
-    def turn(self, now: float, *, silent: bool, answered: bool) -> None:
-        """`silent`: the stream brings nothing. `answered`: the server has just answered a question."""
+    def turn(self, now: float, *, silent: bool, answered: bool) -> bool:
+        """`silent`: the stream brings nothing. `answered`: the server has just answered a question.
+
+        Whether the link has been opened anew since.
+        """
         self._datagrams.turn(now)
-        if self._link.renewed():
+        renewed = self._link.renewed()
+        if renewed:
             self.renewals += 1
             self._datagrams.renewed()
             log.info("the link was opened anew")
+        self._judge(now, silent=silent, answered=answered)
+        return renewed
+
+    def _judge(self, now: float, *, silent: bool, answered: bool) -> None:
         if silent and not self._link.comes_back and now >= self._look_at:
             self._look_at = now + LOOK_SECONDS
             if not self._link.kinds:

@@ -44,11 +44,21 @@ class Play:
         until(lambda: "joined world" in client.err, what=f"{name} joins")
         return client
 
-    def go_on(self, ticks: int) -> None:
-        """Let the server run so many ticks more."""
+    def look(self, rectangle: str) -> Command:
+        """A view that has begun to look."""
+        view = self._start(
+            *("view", rectangle, "--connect", self._connect, "--wait", 30, "--json"),
+            prefix=self._link.client_prefix,
+        )
+        until(lambda: "looking at world" in view.err, what="the view looks")
+        return view
+
+    def go_on(self, ticks: int) -> int:
+        """Let the server run so many ticks more; returns the one that it has reached."""
         until(self._recording.exists, what="a recording")
         wanted = len(Replay.load(self._recording)) + ticks
         until(lambda: len(Replay.load(self._recording)) >= wanted, what=f"{ticks} more ticks")
+        return wanted
 
     def end(self, *clients: Command) -> list[dict[str, Any]]:
         """The figures of the clients, after a check that everybody had the same states."""

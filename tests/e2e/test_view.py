@@ -45,19 +45,19 @@ def whole_tick(view: View, after: int = 0) -> int:
 
     def complete() -> int | None:
         view.turn(time.monotonic())
-        followed = set(view.interest.paces)
-        newest = view.known.world.tick // 6 * 6
-        return next((t for t in range(newest, after, -6) if view.known.told_of(t) >= followed), None)
+        followed = set(view.replica.interest.paces)
+        newest = view.replica.known.world.tick // 6 * 6
+        return next((t for t in range(newest, after, -6) if view.replica.known.told_of(t) >= followed), None)
 
     return until(complete, what="news of all regions")
 
 
 def assert_is_a_part(view: View, tick: int, record) -> None:
     """The view's world of that tick is the part of the recorded one that it follows, within what was promised."""
-    state = view.known.at(tick)
+    state = view.replica.known.at(tick)
     truth = next(world for world in kg.replay.Replay.load(record).worlds() if world.tick == tick)
-    terms = view.about.regions
-    here = np.isin(terms.packer(truth.scene.box).node(truth.position), list(view.interest.paces))
+    terms = view.replica.about.regions
+    here = np.isin(terms.packer(truth.scene.box).node(truth.position), list(view.replica.interest.paces))
     assert state.id.tolist() == truth.id[here].tolist()
     assert np.abs(state.position - truth.position[here]).max(initial=0) <= terms.position_quantum / 2
     assert np.abs(state.velocity - truth.velocity[here]).max(initial=0) <= terms.velocity_quantum / 2
@@ -73,18 +73,21 @@ def test_a_view_has_just_the_balls_of_its_regions_and_moves_and_the_rest_is_not_
     with RawClient(endpoint, WORLD, None) as other:
         view = look()
         first = whole_tick(view)
-        at_first = (first, view.known.at(first))
-        followed = len(view.interest.paces)
-        assert followed < view.nodes.count == 16
-        before, ticks = other.status(), view.known.world.tick
-        until(lambda: view.turn(time.monotonic()) and view.known.world.tick > ticks + 60, what="a second")
+        at_first = (first, view.replica.known.at(first))
+        followed = len(view.replica.interest.paces)
+        assert followed < view.replica.nodes.count == 16
+        before, ticks = other.status(), view.replica.known.world.tick
+        until(
+            lambda: view.turn(time.monotonic()) and view.replica.known.world.tick > ticks + 60,
+            what="a second",
+        )
         after = other.status()
         rounds = (after.tick - before.tick) / 6
         told = after.counters["regions out"] - before.counters["regions out"]
         assert told <= (rounds + 2) * followed, "only what is looked at is told"
         view.move((30.0, 30.0, 38.0, 36.0))
-        second = whole_tick(view, view.known.world.tick)
-        at_second = (second, view.known.at(second))
+        second = whole_tick(view, view.replica.known.world.tick)
+        at_second = (second, view.replica.known.at(second))
         assert set(at_first[1].id.tolist()) != set(at_second[1].id.tolist())
         view.close()
         until(lambda: _silent(other), what="silence when nobody looks")
@@ -105,13 +108,13 @@ def _silent(other: RawClient) -> bool:
 def test_a_server_that_starts_anew_is_looked_at_again(start, scene, endpoint, look, server):
     view = look()
     whole_tick(view)
-    epoch = view.about.epoch
+    epoch = view.replica.about.epoch
     server.kill()
     start("server", scene, "--listen", endpoint)
 
     def anew() -> bool:
         view.turn(time.monotonic())
-        return view.about.epoch != epoch
+        return view.replica.about.epoch != epoch
 
     until(anew, what="the new server is found")
     assert view.rejoins == 1
@@ -122,15 +125,15 @@ def test_a_server_that_starts_anew_is_looked_at_again(start, scene, endpoint, lo
 def test_a_hostile_region_is_refused_and_the_view_goes_on(endpoint, look, server):
     view = look()
     tick = whole_tick(view)
-    node = min(view.interest.paces)
-    key = Keys(WORLD).region(0, view.nodes.path(node))
+    node = min(view.replica.interest.paces)
+    key = Keys(WORLD).region(0, view.replica.nodes.path(node))
     wrong = [
         b"",
         b"\xff" * 100,
         b"\x00" * 2_000_000,
-        encode(Region(epoch=view.about.epoch, tick=2**61, node=node, balls=b"\0")),
-        encode(Region(epoch=view.about.epoch, tick=tick, node=node + 1, balls=b"\0")),
-        encode(Region(epoch=view.about.epoch, tick=tick, node=node, balls=b"\xff" * 1000)),
+        encode(Region(epoch=view.replica.about.epoch, tick=2**61, node=node, balls=b"\0")),
+        encode(Region(epoch=view.replica.about.epoch, tick=tick, node=node + 1, balls=b"\0")),
+        encode(Region(epoch=view.replica.about.epoch, tick=tick, node=node, balls=b"\xff" * 1000)),
     ]
     with RawClient(endpoint, WORLD, None) as other:
         for payload in wrong:
@@ -143,7 +146,7 @@ def test_a_hostile_region_is_refused_and_the_view_goes_on(endpoint, look, server
         until(all_refused, what="all are refused")
     whole_tick(view, tick)
     assert view.rejoins == 0
-    assert view.known.jumps == 0
+    assert view.replica.known.jumps == 0
 
 
 def test_a_budget_is_kept_by_telling_far_regions_less_often(start, endpoint, server):

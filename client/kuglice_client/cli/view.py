@@ -146,8 +146,8 @@ def _each_frame(
         if now - told >= 1:
             told = now
             line.update(
-                f"tick {looking.known.world.tick:,}, {int(looking.in_sight.sum()):,} balls in sight, "
-                f"{len(looking.interest.paces)} regions"
+                f"tick {looking.replica.known.world.tick:,}, {int(looking.in_sight.sum()):,} balls in sight, "
+                f"{len(looking.replica.interest.paces)} regions"
             )
 
     return each_frame
@@ -176,12 +176,12 @@ def _film(looking: View, settings: FilmSettings) -> tuple[Film, Callable[[View, 
     from kuglice_client.view.picture import framed, stage  # noqa: PLC0415
 
     scene = stage(looking)
-    left, bottom, right, top = looking.scene.box
+    left, bottom, right, top = looking.replica.scene.box
     share = scene.box[2] * scene.box[3] / ((right - left) * (top - bottom))
     film = Film(
         scene,
-        replace(settings, reference=looking.about.reference_speed),
-        balls=max(1, round(share * looking.about.balls)),
+        replace(settings, reference=looking.replica.about.reference_speed),
+        balls=max(1, round(share * looking.replica.about.balls)),
     )
 
     def show(seen: View, alpha: float) -> None:

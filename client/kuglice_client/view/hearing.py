@@ -25,11 +25,11 @@ class Hearing:
         self._began = now
         self.packer = about.regions.packer(nodes.box)
 
-    def region(self, key: str, data: bytes, *, now: float) -> Told | int:
-        """What is told, or the epoch, if it is another one. Raises ProtocolError for what cannot be."""
+    def region(self, key: str, data: bytes, *, now: float) -> Told | None:
+        """What is told; None if it is of another run of the server. Raises ProtocolError for what cannot be."""
         message = decode(data, Region)
         if message.epoch != self._about.epoch:
-            return message.epoch
+            return None
         node = message.node
         if node >= self._nodes.count or Keys.node_of(key) != self._nodes.path(node):
             raise ProtocolError(f"region {node} of {self._nodes.count} under the key {key}")

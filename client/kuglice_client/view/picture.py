@@ -19,7 +19,7 @@ __all__ = ["framed", "moment", "stage"]
 
 def moment(view: View, alpha: float) -> Moment:
     """The balls that reach into the rectangle, where they are `alpha` of the way to the last tick."""
-    world = view.known.world
+    world = view.replica.known.world
     position = view.correction.drawn(world.id, world.position)
     position = position - world.velocity * ((1 - alpha) / world.scene.tick_rate)
     radius = world.radius
@@ -42,10 +42,10 @@ def stage(view: View) -> Scene:
     """An empty scene as large as the rectangle: what a film of the view is a film of."""
     left, bottom, right, top = view.rectangle
     return Scene(
-        title=view.scene.title,
+        title=view.replica.scene.title,
         box=(0.0, 0.0, right - left, top - bottom),
         walls=False,
-        tick_rate=view.scene.tick_rate,
+        tick_rate=view.replica.scene.tick_rate,
     )
 
 

@@ -39,8 +39,17 @@ class Subscriptions:
                 whole = len(path) == nodes.depth
                 wanted.add((self._keys.region if whole else self._keys.regions)(pace, path))
         for key in wanted - self._by_key.keys():
-            self._by_key[key] = self._session.declare_subscriber(key, self.samples.append)
+            self._subscribe(key)
             self.changes += 1
         for key in self._by_key.keys() - wanted:
             self._by_key.pop(key).undeclare()  # type: ignore[no-untyped-call]
             self.changes += 1
+
+    def go_over(self, session: zenoh.Session) -> None:
+        """Subscribe to the same in another session; the one before is closed by whoever opened it."""
+        self._session = session
+        for key in self._by_key:
+            self._subscribe(key)
+
+    def _subscribe(self, key: str) -> None:
+        self._by_key[key] = self._session.declare_subscriber(key, self.samples.append)

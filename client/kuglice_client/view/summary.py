@@ -15,30 +15,32 @@ __all__ = ["summarise"]
 
 def summarise(view: View, *, seconds: float) -> dict[str, Any]:
     """Values for JSON. Errors are distances between told and predicted places of balls in sight, in radii."""
-    known, accuracy, interest = view.known, view.accuracy, view.interest
+    replica, accuracy = view.replica, view.accuracy
+    about, known, interest = replica.about, replica.known, replica.interest
     region_bytes = view.link.traffic.received["regions"]
     rates = view.link.traffic.per_second(seconds)
     paces = Counter(interest.paces.values())
     radius = known.world.radius
     smallest = float(np.min(radius)) if len(radius) else None
-    bound = view.about.regions.position_quantum / 2
+    bound = about.regions.position_quantum / 2
     return {
-        "world": view.about.world,
-        "epoch": view.about.epoch,
+        "world": about.world,
+        "epoch": about.epoch,
         "links": "+".join(view.link.kinds),
+        "link_renewals": view.renewal.renewals,
         "seconds": seconds,
         "joined_after_seconds": view.joined_after,
         "final_tick": known.world.tick,
         "rectangle": list(view.rectangle),
-        "balls_of_the_world": view.about.balls,
+        "balls_of_the_world": about.balls,
         "balls_in_sight": int(view.in_sight.sum()),
         "balls_followed": known.world.count,
         "regions_followed": len(interest.paces),
         "regions_by_pace": {f"1/{1 << pace}": paces[pace] for pace in sorted(paces)},
         "regions_left_out": interest.left_out,
-        "updates": view.updates,
-        "bytes_per_update": region_bytes / view.updates if view.updates else None,
-        "bytes_per_ball_told": region_bytes / view.balls_told if view.balls_told else None,
+        "updates": replica.updates,
+        "bytes_per_update": region_bytes / replica.updates if replica.updates else None,
+        "bytes_per_ball_told": region_bytes / replica.balls_told if replica.balls_told else None,
         "updates_too_old": known.too_old,
         "rewinds": known.rewinds,
         "ticks_rerun": known.ticks_rerun,

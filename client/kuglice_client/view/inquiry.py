@@ -1,0 +1,72 @@
+"""What the server says about the world for views: asked for at the start, and again where things look different."""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+
+from kuglice import _core
+from kuglice.errors import JoinError, ProtocolError
+from kuglice.protocol import Keys, ViewAbout, decode
+from kuglice_client.ask import Asked
+from kuglice_client.link import Link
+
+__all__ = ["Inquiry"]
+
+log = logging.getLogger(__name__)
+
+AGAIN_SECONDS = 1.0
+TIMEOUT_SECONDS = 1.0
+"""What is asked into the void is not waited for any longer."""
+RETRY_SECONDS = 0.03
+
+
+class Inquiry:
+    """One question at a time."""
+
+    def __init__(self, link: Link, keys: Keys) -> None:
+        self._link = link
+        self._keys = keys
+        self._asked: Asked | None = None
+        self._asked_at = time.monotonic()
+
+    def wait(self, deadline: float, stop: threading.Event) -> ViewAbout:
+        """The answer, asked for again until there is one. Raises JoinError at the deadline, or when `stop` is set."""
+        while True:
+            try:
+                return _checked(self._link.ask(self._keys.view, None).wait(stop)[0])
+            except (JoinError, ProtocolError) as error:
+                if time.monotonic() > deadline or stop.wait(RETRY_SECONDS):
+                    raise JoinError(f"{self._keys.view}: {error}") from error
+
+    def ask(self, now: float) -> None:
+        """Unless that was done just now."""
+        if self._asked is None and now - self._asked_at > AGAIN_SECONDS:
+            self._asked = self._link.ask(self._keys.view, None, timeout=TIMEOUT_SECONDS)
+            self._asked_at = now
+
+    def answer(self) -> ViewAbout | None:
+        """What was asked, once; None if nothing was, or there is no answer yet, or none will come."""
+        if self._asked is None:
+            return None
+        try:
+            replies = self._asked.poll()
+            if replies is None:
+                return None
+            self._asked = None
+            return _checked(replies[0])
+        except (JoinError, ProtocolError) as error:
+            log.debug("nobody says what runs now: %s", error)
+            self._asked = None
+            return None
+
+
+def _checked(reply: bytes) -> ViewAbout:
+    about = decode(reply, ViewAbout)
+    if about.step_version != _core.STEP_VERSION:
+        raise JoinError(
+            f"step version {about.step_version} of the server (kuglice {about.version}): this view has "
+            f"{_core.STEP_VERSION} and would compute something else"
+        )
+    return about
