@@ -63,6 +63,16 @@ def test_an_input_now_and_then_is_told_until_it_is_heard_within_the_budget():
     assert sum(told[60:]) / len(told[60:]) > 10
 
 
+def test_a_session_of_seconds_after_a_long_quiet_stays_below_twenty_kilobits_too():
+    stream = Stream()
+    for number in range(600):
+        stream.tick(0, [number - 20])
+    quiet = len(stream.sizes)
+    for number in range(quiet, quiet + 6 * RATE):
+        stream.tick(number % 6 == 0, [number - 30])
+    assert 8 * sum(stream.sizes[quiet:]) / 6 < 20_000
+
+
 def test_many_inputs_are_told_twice_whatever_that_costs():
     stream = Stream()
     told = [stream.tick(4, [number - 20]) for number in range(300)]
