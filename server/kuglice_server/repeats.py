@@ -22,7 +22,7 @@ UNKNOWN = 6
 """Ticks told where no client says what it has heard."""
 DATAGRAM_BYTES = 1_100
 """Fits into one packet of every network, with what Zenoh, UDP and IP wrap around it."""
-SAVED_SECONDS = 0.25
+SAVED_SECONDS = 0.15
 """How long a quiet time may be drawn on: what a session of seconds spends of it shows in its mean."""
 
 
