@@ -55,7 +55,7 @@ class Asked:
                 reply = self._handler.try_recv()
             except zenoh.ZError:  # the channel is closed: that was all
                 if not self._replies:
-                    raise JoinError(f"{self._key}: nobody answers") from None
+                    raise JoinError(f"nobody answers {self._key}") from None
                 return self._replies
             if reply is None:
                 return None

@@ -16,11 +16,13 @@ from kuglice.errors import JoinError, KugliceError, ProtocolError
 from kuglice.protocol import ANY_EPOCH, ANY_STATUS, About, Keys, SnapshotRequest, Status, decode
 from kuglice_client.link import Link
 
-__all__ = ["Joined", "find_world", "join"]
+__all__ = ["Joined", "find_world", "join", "patience"]
 
 log = logging.getLogger(__name__)
 
 RETRY_SECONDS = 0.03
+ANSWER_SECONDS = 5.0
+LEAST_ANSWER_SECONDS = 1.0
 SNAPSHOT_SECONDS = 30.0
 """For a state to arrive: a large one takes its time on a thin link."""
 
@@ -49,10 +51,14 @@ def find_world(link: Link, *, deadline: float, stop: threading.Event) -> str:
     """Name of the only world that is served here. Raises JoinError if there is none, or more than one."""
     while True:
         try:
-            replies = link.ask(ANY_STATUS, None).wait(stop)
+            replies = link.ask(ANY_STATUS, None, timeout=patience(deadline)).wait(stop)
             break
         except JoinError:
-            _pause(deadline, stop)
+            _pause(
+                deadline,
+                stop,
+                why=f"no world is served at {link.endpoints}: is the server behind it running?",
+            )
     worlds = sorted({decode(reply, Status).world for reply in replies})
     if len(worlds) > 1:
         raise JoinError(f"worlds {', '.join(worlds)} are served here: say which one with --world")
@@ -93,7 +99,7 @@ def _attempt(
     stop: threading.Event,
 ) -> Joined:
     asked_at = time.monotonic()
-    asked_about = link.ask(keys.about, None)
+    asked_about = link.ask(keys.about, None, timeout=patience(deadline))
     # At once and not in turn: on a long way every question costs a round trip, and a state takes several.
     asked_snapshot = link.ask(
         keys.history, SnapshotRequest(epoch=ANY_EPOCH, at=None), timeout=SNAPSHOT_SECONDS
@@ -101,7 +107,7 @@ def _attempt(
     try:
         about = decode(asked_about.wait_whole(stop).data, About)
     except JoinError as error:
-        raise _NotYetError(str(error)) from error
+        raise _NotYetError(f"world {keys.world} at {link.endpoints}: {error}") from error
     except ProtocolError as error:
         raise JoinError(f"{keys.about}: {error}") from error
     round_trip = time.monotonic() - asked_at
@@ -139,7 +145,7 @@ def _number(
     name, session = who
     while True:
         try:
-            status = decode(link.ask(keys.status, None).wait(stop)[0], Status)
+            status = decode(link.ask(keys.status, None, timeout=patience(deadline)).wait(stop)[0], Status)
         except (JoinError, ProtocolError) as error:
             raise _NotYetError(str(error)) from error
         for refusal in status.refusals:
@@ -154,7 +160,12 @@ def _number(
         _pause(deadline, stop, why=f"client {name}: {why}")
 
 
-def _pause(deadline: float, stop: threading.Event, why: str = "no world is served here") -> None:
+def patience(deadline: float) -> float:
+    """Seconds to wait for one answer: until the deadline, but a second at least, and not for ever."""
+    return max(LEAST_ANSWER_SECONDS, min(ANSWER_SECONDS, deadline - time.monotonic()))
+
+
+def _pause(deadline: float, stop: threading.Event, why: str) -> None:
     if stop.wait(RETRY_SECONDS):
         raise JoinError("stopped while joining")
     if time.monotonic() > deadline:

@@ -22,6 +22,7 @@ from kuglice.protocol import (
     close_session,
     decode,
     encode,
+    given_up_within,
     open_links,
     open_session,
     wants_datagrams,
@@ -52,6 +53,7 @@ class Link:
     def __init__(
         self, connect: tuple[str, ...], *, deadline: float, stop: threading.Event, renewable: bool = False
     ) -> None:
+        self.endpoints = ", ".join(connect)
         self.traffic = Traffic()
         self.malformed = 0
         self.wants_datagrams = any(map(wants_datagrams, connect))
@@ -217,10 +219,12 @@ class _Opening:
 
 
 def _connected(configuration: dict[str, Any], deadline: float, stop: threading.Event) -> zenoh.Session:
+    attempt = configuration
     while True:
         try:
-            return open_session(configuration)
+            return open_session(attempt)
         except ProtocolError as error:
             # Where datagrams are wanted too, an attempt ends at once if nobody is there.
             if time.monotonic() > deadline or stop.wait(RETRY_SECONDS):
                 raise JoinError(str(error)) from error
+            attempt = given_up_within(configuration, deadline - time.monotonic())

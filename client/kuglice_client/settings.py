@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from kuglice.errors import ProtocolError
-from kuglice.protocol import DEFAULT_ENDPOINT, check_name
+from kuglice.protocol import DEFAULT_ENDPOINT, check_endpoints, check_name
 from kuglice_client.bots import BOTS
 
 __all__ = ["ClientSettings"]
@@ -41,6 +41,7 @@ class ClientSettings:
     study: Path | None = None
 
     def __post_init__(self) -> None:
+        check_endpoints(self.connect)
         if self.name is not None:
             check_name("client", self.name)
         if self.bot is not None and self.bot not in BOTS:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from kuglice.errors import ProtocolError
-from kuglice.protocol import DEFAULT_ENDPOINT, refuse_exposed
+from kuglice.protocol import DEFAULT_ENDPOINT, check_endpoints, refuse_exposed
 
 __all__ = ["ServerSettings"]
 
@@ -41,6 +41,7 @@ class ServerSettings:
     def __post_init__(self) -> None:
         if not self.listen and not self.connect:
             raise ProtocolError("endpoints: none to listen on and none to connect to")
+        check_endpoints((*self.listen, *self.connect))
         if not self.insecure:
             refuse_exposed(self.listen)
         if self.snapshot_every is not None and self.snapshot_every < 1:

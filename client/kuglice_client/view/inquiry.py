@@ -10,6 +10,7 @@ from kuglice import _core
 from kuglice.errors import JoinError, ProtocolError
 from kuglice.protocol import Keys, ViewAbout, decode
 from kuglice_client.ask import Asked
+from kuglice_client.join import patience
 from kuglice_client.link import Link
 
 __all__ = ["Inquiry"]
@@ -35,10 +36,11 @@ class Inquiry:
         """The answer, asked for again until there is one. Raises JoinError at the deadline, or when `stop` is set."""
         while True:
             try:
-                return _checked(self._link.ask(self._keys.view, None).wait(stop)[0])
+                asked = self._link.ask(self._keys.view, None, timeout=patience(deadline))
+                return _checked(asked.wait(stop)[0])
             except (JoinError, ProtocolError) as error:
                 if time.monotonic() > deadline or stop.wait(RETRY_SECONDS):
-                    raise JoinError(f"{self._keys.view}: {error}") from error
+                    raise JoinError(f"world {self._keys.world} at {self._link.endpoints}: {error}") from error
 
     def ask(self, now: float) -> None:
         """Unless that was done just now."""

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from kuglice.errors import ProtocolError
-from kuglice.protocol import DEFAULT_ENDPOINT, Rectangle
+from kuglice.protocol import DEFAULT_ENDPOINT, Rectangle, check_endpoints
 
 __all__ = ["ViewSettings", "check_rectangle", "parse_rectangle"]
 
@@ -31,6 +31,7 @@ class ViewSettings:
     wait: float = 10.0
 
     def __post_init__(self) -> None:
+        check_endpoints(self.connect)
         check_rectangle(self.rectangle)
         if self.margin is not None and not 0 <= self.margin < math.inf:
             raise ProtocolError(f"margin {self.margin}: must be at least 0 and finite")

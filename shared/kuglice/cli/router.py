@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Annotated
 
 import typer
 
 from kuglice.cli.logs import STDERR, log_to_stderr
 from kuglice.cli.stop import stop_on_signals
-from kuglice.protocol import close_session, open_session, refuse_exposed, server_configuration
+from kuglice.errors import NetworkError
+from kuglice.protocol import (
+    check_endpoints,
+    close_session,
+    open_session,
+    refuse_exposed,
+    server_configuration,
+)
 
 __all__ = ["register"]
 
@@ -42,11 +50,23 @@ def router(
     stop = stop_on_signals()
     ours = tuple(listen or ("tcp/127.0.0.1:7448",))
     theirs = tuple(connect or ("tcp/127.0.0.1:7447",))
+    check_endpoints((*ours, *theirs))
     if not insecure:
         refuse_exposed(ours)
+    _refuse_itself(ours, theirs)
     session = open_session(server_configuration(listen=ours, connect=theirs))
     try:
         STDERR.print(f"router from {', '.join(theirs)} to {', '.join(ours)}", highlight=False)
         stop.wait()
     finally:
         close_session(session, [])
+
+
+def _refuse_itself(listen: Iterable[str], connect: Iterable[str]) -> None:
+    own = {endpoint.rpartition("/")[2].partition("?")[0] for endpoint in listen}
+    for endpoint in connect:
+        if endpoint.rpartition("/")[2].partition("?")[0] in own:
+            raise NetworkError(
+                f"router: listens on {endpoint} and connects to it, which is itself; --connect must name the server "
+                "or another router"
+            )

@@ -6,7 +6,13 @@ Server and client both speak through this package and through nothing else.
 from kuglice.protocol.codec import decode, encode
 from kuglice.protocol.compact import packed_size
 from kuglice.protocol.compression import compress, decompress
-from kuglice.protocol.endpoints import DEFAULT_ENDPOINT, is_loopback, wants_datagrams
+from kuglice.protocol.endpoints import (
+    DEFAULT_ENDPOINT,
+    check_endpoints,
+    host_and_port,
+    is_loopback,
+    wants_datagrams,
+)
 from kuglice.protocol.exposure import refuse_exposed
 from kuglice.protocol.keys import ANY_STATUS, Keys, check_name
 from kuglice.protocol.messages import (
@@ -45,6 +51,7 @@ from kuglice.protocol.session import (
     Declared,
     client_configuration,
     close_session,
+    given_up_within,
     open_links,
     open_session,
     server_configuration,
@@ -87,6 +94,7 @@ __all__ = [
     "TickRange",
     "ViewAbout",
     "Whole",
+    "check_endpoints",
     "check_name",
     "client_configuration",
     "close_session",
@@ -94,6 +102,8 @@ __all__ = [
     "decode",
     "decompress",
     "encode",
+    "given_up_within",
+    "host_and_port",
     "is_loopback",
     "open_links",
     "open_session",

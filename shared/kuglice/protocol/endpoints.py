@@ -3,14 +3,25 @@
 from __future__ import annotations
 
 import ipaddress
+from collections.abc import Iterable
 
 from kuglice.errors import ProtocolError
 
-__all__ = ["DEFAULT_ENDPOINT", "is_loopback", "locators", "wants_datagrams"]
+__all__ = [
+    "DEFAULT_ENDPOINT",
+    "as_written",
+    "check_endpoints",
+    "host_and_port",
+    "is_loopback",
+    "locators",
+    "wants_datagrams",
+]
 
 DEFAULT_ENDPOINT = "tcp+udp/127.0.0.1:7447"
 BOTH = "tcp+udp"
 LOCAL_PROTOCOLS = ("unixsock-stream",)
+STREAM, DATAGRAMS = "?rel=1", "?rel=0"
+PROTOCOLS = ("tcp", BOTH, "udp", "tls", "quic", "ws", *LOCAL_PROTOCOLS)
 
 
 def locators(endpoint: str) -> list[str]:
@@ -21,7 +32,16 @@ def locators(endpoint: str) -> list[str]:
     protocol, _, rest = endpoint.partition("/")
     if protocol != BOTH:
         return [endpoint]
-    return [f"tcp/{rest}?rel=1", f"udp/{rest}?rel=0"]
+    return [f"tcp/{rest}{STREAM}", f"udp/{rest}{DATAGRAMS}"]
+
+
+def as_written(links: Iterable[str]) -> list[str]:
+    """The endpoints that `locators` made these of: what a user wrote, and can be told."""
+    return [
+        f"{BOTH}/{link.removeprefix('tcp/').removesuffix(STREAM)}" if link.endswith(STREAM) else link
+        for link in links
+        if not link.endswith(DATAGRAMS)
+    ]
 
 
 def wants_datagrams(endpoint: str) -> bool:
@@ -29,20 +49,36 @@ def wants_datagrams(endpoint: str) -> bool:
     return endpoint.partition("/")[0] == BOTH
 
 
-def is_loopback(endpoint: str) -> bool:
-    """Whether nobody but this machine can reach `endpoint`; raises ProtocolError if it is none."""
+def check_endpoints(endpoints: Iterable[str]) -> None:
+    """Raises ProtocolError for the first that is none: nobody need wait until nothing answers there."""
+    for endpoint in endpoints:
+        is_loopback(endpoint)
+
+
+def host_and_port(endpoint: str) -> tuple[str, int]:
+    """Of an endpoint by name and port: `tcp/[::1]:7447` -> `::1`, 7447. Raises ProtocolError if it is none."""
     protocol, slash, rest = endpoint.partition("/")
     if not slash or not protocol or not rest:
-        raise ProtocolError(f"endpoint {endpoint!r}: must look like tcp/127.0.0.1:7447")
-    if protocol in LOCAL_PROTOCOLS:
-        return True
+        raise ProtocolError(
+            f"endpoint {endpoint!r}: must look like {DEFAULT_ENDPOINT}, or tcp/127.0.0.1:7447"
+        )
+    if protocol not in PROTOCOLS:
+        raise ProtocolError(f"endpoint {endpoint!r}: {protocol!r} must be one of {', '.join(PROTOCOLS)}")
     address = rest.partition("?")[0].partition("#")[0]
     host, colon, port = address.rpartition(":")
-    if not colon or not port.isdecimal() or int(port) > 65535:
-        raise ProtocolError(f"endpoint {endpoint!r}: must end with a port of 0 to 65535")
+    if not colon or not host or not port.isdecimal() or int(port) > 65535:
+        raise ProtocolError(f"endpoint {endpoint!r}: must have a host, and end with a port of 0 to 65535")
     if protocol == BOTH and address != rest:
         raise ProtocolError(f"endpoint {endpoint!r}: takes no parameters")
-    host = host.removeprefix("[").removesuffix("]")
+    return host.removeprefix("[").removesuffix("]"), int(port)
+
+
+def is_loopback(endpoint: str) -> bool:
+    """Whether nobody but this machine can reach `endpoint`; raises ProtocolError if it is none."""
+    protocol, _, rest = endpoint.partition("/")
+    if protocol in LOCAL_PROTOCOLS and rest:
+        return True
+    host, _ = host_and_port(endpoint)
     if host == "localhost":
         return True
     try:

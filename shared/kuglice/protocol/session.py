@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import re
 import threading
 from collections.abc import Iterable, Sequence
 from typing import Any, Protocol
@@ -10,13 +12,14 @@ from typing import Any, Protocol
 import zenoh
 
 from kuglice.errors import ProtocolError
-from kuglice.protocol.endpoints import locators
+from kuglice.protocol.endpoints import as_written, locators
 
 __all__ = [
     "LEASE_MS",
     "Declared",
     "client_configuration",
     "close_session",
+    "given_up_within",
     "open_links",
     "open_session",
     "server_configuration",
@@ -29,6 +32,7 @@ LINKS = 2
 """Between two sessions: a stream, and datagrams beside it."""
 OPEN_TIMEOUT_MS = 1500
 """How long a link that nobody answers on is tried: it may have been cut, or another one be there."""
+LEAST_OPEN_TIMEOUT_MS = 500
 RETRY_MS = 200
 NEVER_MS = 24 * 3600 * 1000
 
@@ -98,24 +102,43 @@ def _configuration(
     return configuration
 
 
+def given_up_within(configuration: dict[str, Any], seconds: float) -> dict[str, Any]:
+    """The same, with every link given up so soon that all take `seconds`; each is tried for half a second at least."""
+    transport = configuration["transport"]
+    each = max(LEAST_OPEN_TIMEOUT_MS, min(OPEN_TIMEOUT_MS, int(1000 * seconds / LINKS)))
+    return {
+        **configuration,
+        "transport": {**transport, "unicast": {**transport["unicast"], "open_timeout": each}},
+    }
+
+
 def open_session(configuration: dict[str, Any]) -> zenoh.Session:
     """Open a session; raises ProtocolError, naming the endpoints, if that fails."""
     try:
         return zenoh.open(zenoh.Config.from_json5(json.dumps(configuration)))
     except zenoh.ZError as error:
-        listen = configuration.get("listen", {}).get("endpoints", [])
-        connect = configuration.get("connect", {}).get("endpoints", [])
-        what = " and ".join(
-            f"{verb} {', '.join(map(_told, endpoints))}"
-            for verb, endpoints in (("listen on", listen), ("connect to", connect))
-            if endpoints
-        )
-        # Zenoh's text ends with the source line that it came from; that is of no use to a user.
-        raise ProtocolError(f"cannot {what}: {str(error).partition(' at /')[0]}") from error
+        raise ProtocolError(_why_not(configuration, str(error))) from error
 
 
-def _told(endpoint: str | dict[str, Any]) -> str:
-    return endpoint if isinstance(endpoint, str) else " + ".join(endpoint["locators"])
+def _why_not(configuration: dict[str, Any], told: str) -> str:
+    """What a user can do about it. Zenoh tells of its locators, its source lines, and of timeouts."""
+    listen = configuration.get("listen", {}).get("endpoints", [])
+    # One that listens waits for those it connects to: if it is given up, it is for an address of its own.
+    if listen:
+        number = re.search(r"os error (\d+)", told)
+        reason = os.strerror(int(number[1])).lower() if number else told.partition(" at /")[0]
+        hint = "; end the program that has it, or --listen elsewhere" if "in use" in reason else ""
+        return f"cannot listen on {', '.join(as_written(listen))}: {reason}{hint}"
+    connect = configuration.get("connect", {}).get("endpoints", [])
+    where = ", ".join(name for endpoint in connect for name in as_written(_links(endpoint)))
+    return (
+        f"cannot connect to {where}: nobody answers there; start one with `kuglice server SCENE`, or say with "
+        "--connect where one runs"
+    )
+
+
+def _links(endpoint: str | dict[str, Any]) -> list[str]:
+    return [endpoint] if isinstance(endpoint, str) else endpoint["locators"]
 
 
 def open_links(session: zenoh.Session) -> list[str]:

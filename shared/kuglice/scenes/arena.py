@@ -18,12 +18,15 @@ __all__ = ["arena"]
 
 MARGIN = 4.0
 """Free strips at both ends, in which the players appear."""
+MOST_PLAYERS = 30
+"""Two columns of them as high as the box."""
 
 
 def arena(players: int = 8, balls: int = 600, seed: int = 1) -> Scene:
     """Up to `players` heavy balls, steered by thrust, among loose ones."""
-    whole("arena", players=players, balls=balls)
-    whole("arena", least=0, seed=seed)
+    whole("arena", most=MOST_PLAYERS, players=players)
+    whole("arena", balls=balls)
+    whole("arena", least=0, most=None, seed=seed)
     width, height = 64.0, 36.0
     sides = (0.5 * MARGIN, width - 0.5 * MARGIN)
     lanes = (players + 1) // 2

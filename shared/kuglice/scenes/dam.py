@@ -12,7 +12,7 @@ __all__ = ["dam"]
 def dam(n: int = 10_000, seed: int = 1) -> Scene:
     """n small balls, let go as a column of fluid at the left end of a tank."""
     whole("dam", n=n)
-    whole("dam", least=0, seed=seed)
+    whole("dam", least=0, most=None, seed=seed)
     return Scene(
         title="Dam",
         description="Ten thousand small balls, let go as a column, run through the tank as a fluid.",

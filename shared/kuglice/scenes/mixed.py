@@ -17,7 +17,7 @@ SMALLEST, LARGEST = 0.1, 2.0
 def mixed(n: int = 1200, packing: float = 0.35, seed: int = 1, speed: float = 4.0) -> Scene:
     """n elastic balls of radii 0.1 to 2, and so of masses 1 to 400, at a packing fraction."""
     whole("mixed", n=n)
-    whole("mixed", least=0, seed=seed)
+    whole("mixed", least=0, most=None, seed=seed)
     positive("mixed", packing=packing)
     at_least("mixed", 0.0, speed=speed)
     # The mean of radius^2 for radii spread evenly.

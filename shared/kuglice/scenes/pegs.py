@@ -14,7 +14,7 @@ __all__ = ["pegs"]
 def pegs(n: int = 400, rows: int = 14, seed: int = 1) -> Scene:
     """n balls fall through rows of fixed pegs into bins."""
     whole("pegs", n=n, rows=rows)
-    whole("pegs", least=0, seed=seed)
+    whole("pegs", least=0, most=None, seed=seed)
     columns, spacing = 24, 2.0
     width, bins, board = columns * spacing, 8.0, rows * 1.6
     height = bins + board + 1.0 + n / 20.0

@@ -12,7 +12,7 @@ __all__ = ["rain"]
 def rain(n: int = 2000, seed: int = 1, radius: float = 0.15, gravity: float = 10.0) -> Scene:
     """n elastic balls that fall from the upper half of a box and never come to rest."""
     whole("rain", n=n)
-    whole("rain", least=0, seed=seed)
+    whole("rain", least=0, most=None, seed=seed)
     positive("rain", radius=radius)
     finite("rain", gravity=gravity)
     return Scene(

@@ -9,9 +9,11 @@ import typer
 
 from kuglice.cli.logs import STDERR
 from kuglice.cli.stop import stop_on_signals
+from kuglice.errors import NetworkError
 from kuglice.lab.network.addresses import address
 from kuglice.lab.network.conditions import Conditions
 from kuglice.lab.network.proxy import Proxy
+from kuglice.protocol import DEFAULT_ENDPOINT
 
 __all__ = ["register"]
 
@@ -25,9 +27,11 @@ def register(app: typer.Typer) -> None:
 
 def proxy(
     listen: Annotated[
-        str, typer.Argument(help="Where clients connect.", metavar="LISTEN")
-    ] = "127.0.0.1:7448",
-    target: Annotated[str, typer.Argument(help="Where the server is.", metavar="TARGET")] = "127.0.0.1:7447",
+        str, typer.Argument(help="Endpoint where clients connect.", metavar="LISTEN")
+    ] = "tcp+udp/127.0.0.1:7448",
+    target: Annotated[
+        str, typer.Argument(help="Endpoint of the server.", metavar="TARGET")
+    ] = DEFAULT_ENDPOINT,
     *,
     round_trip: Annotated[float, typer.Option(help="Milliseconds there and back.")] = 150.0,
     jitter: Annotated[float, typer.Option(help="Share of the delay that it varies by, both ways.")] = 0.2,
@@ -39,9 +43,10 @@ def proxy(
 ) -> None:
     """Put a bad network between a server and its clients.
 
-    It relays TCP connections and UDP datagrams of one port. Ends on SIGINT or SIGTERM.
+    It relays TCP connections and UDP datagrams of one port, whichever of them an endpoint names; a bare host:port
+    will do. Ends on SIGINT or SIGTERM.
 
-    Example: kuglice proxy --round-trip 300, and then kuglice client --connect tcp/127.0.0.1:7448
+    Example: kuglice proxy --round-trip 300, and then kuglice client --connect tcp+udp/127.0.0.1:7448
     """
     conditions = Conditions(
         round_trip=round_trip / 1000,
@@ -52,8 +57,13 @@ def proxy(
         bandwidth=bandwidth,
         seed=seed,
     )
+    ours, theirs = address(listen), address(target)
+    if ours == theirs:
+        raise NetworkError(
+            f"proxy: listens on {listen} and relays to it, which is itself; TARGET must be the server"
+        )
     stop = stop_on_signals()
-    relay = Proxy(address(listen), address(target), conditions)
+    relay = Proxy(ours, theirs, conditions)
 
     async def until_stopped() -> None:
         await relay.start()

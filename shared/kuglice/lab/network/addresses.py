@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
-from kuglice.errors import NetworkError
+from kuglice.errors import NetworkError, ProtocolError
+from kuglice.protocol import host_and_port
 
 __all__ = ["address"]
 
 
 def address(text: str) -> tuple[str, int]:
-    """127.0.0.1:7447 or [::1]:7447, taken apart. Raises NetworkError."""
-    host, colon, port = text.rpartition(":")
-    if not colon or not host or not port.isdecimal() or not 0 < int(port) < 65536:
-        raise NetworkError(f"address {text!r}: must be a host and a port of 1 to 65535, like 127.0.0.1:7447")
-    return host.removeprefix("[").removesuffix("]"), int(port)
+    """An endpoint, as other commands take it, or 127.0.0.1:7447 alone, taken apart. Raises NetworkError."""
+    try:
+        host, port = host_and_port(text if "/" in text else f"tcp+udp/{text}")
+        if port:
+            return host, port
+    except ProtocolError:
+        pass
+    raise NetworkError(
+        f"address {text!r}: must be a host and a port of 1 to 65535, like tcp+udp/127.0.0.1:7447"
+    )

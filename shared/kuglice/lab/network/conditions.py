@@ -32,7 +32,8 @@ class Conditions:
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.round_trip <= LONGEST_ROUND_TRIP:
-            raise NetworkError(f"round trip {self.round_trip}: must be 0 to {LONGEST_ROUND_TRIP:g} seconds")
+            told, longest = 1000 * self.round_trip, 1000 * LONGEST_ROUND_TRIP
+            raise NetworkError(f"round trip {told:.12g} ms: must be 0 to {longest:g} ms")
         for name in ("jitter", "loss", "duplicate"):
             value = getattr(self, name)
             if not 0.0 <= value <= 1.0:

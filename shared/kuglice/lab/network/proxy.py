@@ -10,6 +10,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import itertools
+import os
 from collections import Counter
 
 from kuglice.errors import NetworkError
@@ -45,7 +46,9 @@ class Proxy:
             self._datagrams = Datagrams(self._listen, self._target, self._up, self._down)
         except OSError as error:
             host, port = self._listen
-            raise NetworkError(f"cannot listen on {host}:{port}: {error}") from error
+            # asyncio tells the address again, and a name that nobody knows has a number that is none of the system's.
+            reason = os.strerror(error.errno).lower() if error.errno and error.errno > 0 else error.strerror
+            raise NetworkError(f"cannot listen on {host}:{port}: {reason}") from error
 
     def reset(self) -> None:
         """Break every TCP connection off."""
