@@ -100,7 +100,7 @@ def test_a_stream_loses_nothing_but_waits_for_the_retransmission():
 @pytest.mark.parametrize(
     ("wrong", "words"),
     [
-        ({"round_trip": -1.0}, "round trip -1.0: must be 0 to 60"),
+        ({"round_trip": -1.0}, "round trip -1000 ms: must be 0 to 60000 ms"),
         ({"round_trip": float("nan")}, "round trip nan"),
         ({"loss": 1.5}, "loss 1.5: must be 0 to 1"),
         ({"bandwidth": float("nan")}, "bandwidth nan"),
