@@ -29,9 +29,9 @@ def test_seconds_for_programs_and_a_row_for_every_frame(path, tmp_path):
     assert result.exit_code == 0, result.output
     told = json.loads(result.stdout)
     assert [row["second"] for row in told["seconds"]] == [0, 1]
-    assert told["study"]["own mean error radii"] == pytest.approx(0.1, rel=1e-3)
-    assert told["seconds"][0]["worst error"] == pytest.approx(0.1, rel=1e-3)
-    assert len(table.read_text().splitlines()) == 1 + told["study"]["frames compared"] == 1 + 88
+    assert told["study"]["own_mean_error_radii"] == pytest.approx(0.1, rel=1e-3)
+    assert told["seconds"][0]["worst_error_radii"] == pytest.approx(0.1, rel=1e-3)
+    assert len(table.read_text().splitlines()) == 1 + told["study"]["frames_compared"] == 1 + 88
 
 
 def test_a_table_for_people(path):
@@ -56,3 +56,14 @@ def test_balls_are_drawn_where_they_were_seen(path, tmp_path):
     film_of_seen([one._replace(position=one.position + 2.0)], tmp_path / "moved-%05d.png", size=(320, 180))
     seen, moved = ((tmp_path / f"{name}-00000.png").read_bytes() for name in ("seen", "moved"))
     assert seen != moved
+
+
+def test_keys_for_programs_are_names_and_what_people_read_is_explained(path):
+    told = json.loads(
+        CliRunner().invoke(build(), ["study", str(path), "--json", "--other", str(path)]).stdout
+    )
+    for names in (told["study"], told["seconds"][0]):
+        assert all(name.isidentifier() for name in names)
+    assert set(told["study"]["other_screen_delay_ms"]) == {"ana"}
+    result = CliRunner().invoke(build(), ["study", str(path)])
+    assert "predicted equal: share of frames whose state had the server's very bits" in result.stderr

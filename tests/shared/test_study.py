@@ -29,7 +29,7 @@ def test_what_was_predicted_right_and_drawn_there_is_no_error(path):
     frames = list(Study.load(path).frames())
     # The last two frames show ticks that were not confirmed yet.
     assert len(frames) == 8
-    assert all(frame.right and frame.ahead == 2 for frame in frames)
+    assert all(frame.predicted_equal and frame.ahead == 2 for frame in frames)
     # Places are kept in single precision.
     assert max(frame.worst_error for frame in frames) < 1e-5
 
@@ -56,10 +56,10 @@ def test_a_guess_that_was_wrong_has_another_hash(path):
     session.recorder.close()
     study = Study.load(path)
     frames = list(study.frames())
-    assert [frame.right for frame in frames] == [False, False, True, True]
+    assert [frame.predicted_equal for frame in frames] == [False, False, True, True]
     assert frames[0].worst_error > 1e-4
     figures = summary(study, frames)
-    assert (figures["rollbacks"], figures["mean rollback ticks"], figures["predicted right"]) == (1, 2, 0.5)
+    assert (figures["rollbacks"], figures["mean_rollback_ticks"], figures["predicted_equal"]) == (1, 2, 0.5)
     assert by_second(study, frames)[0]["rollbacks"] == 1
 
 
@@ -71,7 +71,7 @@ def test_the_servers_state_that_was_taken_is_what_later_frames_are_compared_with
     for _ in range(4):
         session.tick()
     session.recorder.close()
-    assert all(frame.right for frame in list(Study.load(path).frames())[1:])
+    assert all(frame.predicted_equal for frame in list(Study.load(path).frames())[1:])
 
 
 def test_a_restart_of_the_server_begins_another_part(path):

@@ -13,13 +13,14 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 import typer
 from rich.status import Status
 
-from kuglice.cli.figures import print_figures
+from kuglice.cli.figures import print_figures, print_groups
 from kuglice.cli.logs import STDERR, log_to_stderr
 from kuglice.cli.stop import stop_on_signals
 from kuglice.extras import require
 from kuglice.protocol import DEFAULT_ENDPOINT
 from kuglice_client.bots import BOTS
 from kuglice_client.cli.finishing import finished
+from kuglice_client.cli.groups import CLIENT, CLIENT_SILENT
 from kuglice_client.cli.options import (
     AsJson,
     FilmRate,
@@ -148,9 +149,13 @@ def client(
         if film is not None:
             summary |= finished(film)
     write_summary(summary_json, summary)
-    watching = settings.name is None and not as_json
-    shown = {name: value for name, value in summary.items() if not (watching and name in OF_PLAYERS)}
-    print_figures(f"Client {settings.name or '(spectator)'}", {"client": shown}, as_json=as_json)
+    title = f"Client {settings.name or '(spectator)'}"
+    if as_json:
+        print_figures(title, {"client": summary}, as_json=True)
+    else:
+        watching = settings.name is None
+        shown = {name: value for name, value in summary.items() if not (watching and name in OF_PLAYERS)}
+        print_groups(title, shown, CLIENT, silent=CLIENT_SILENT)
     if not summary["agreed"]:
         compared = summary["hashes_checked"] > 0
         STDERR.print("states differed from the server's" if compared else "nothing could be compared")

@@ -47,8 +47,9 @@ def study(  # noqa: PLR0917 - options
 ) -> None:
     """Compare what a client drew with the server's world.
 
-    Tick by tick, told second by second. Errors are in radii, corrections that glide included. Ends with code 2 if the
-    file is no study or damaged.
+    Tick by tick, told second by second. Errors are how far balls were drawn from where the server had them, in radii,
+    corrections that glide included. "predicted equal" is the share of frames whose predicted state had the server's
+    very bits. Ends with code 2 if the file is no study or damaged.
     """
     seen = Study.load(file)
     frames = list(seen.frames())
@@ -56,22 +57,25 @@ def study(  # noqa: PLR0917 - options
     for path in other or []:
         acting = Study.load(path)
         delays = other_screen_delays(acting, seen)
-        heading = f"delay ms from {acting.joined.name or path}"
-        figures[heading] = 1000 * statistics.fmean(delays) if delays else None
+        figures.setdefault("other_screen_delay_ms", {})[acting.joined.name or str(path)] = (
+            1000 * statistics.fmean(delays) if delays else None
+        )
     if frames_csv is not None:
         _write(frames_csv, frames)
     if render is not None:
         require("render")
         with STDERR.status("drawing"):
-            figures["frames of the film"] = film_of_seen(seen.seen(), render, fps=fps, own=seen.joined.number)
+            figures["frames_of_the_film"] = film_of_seen(seen.seen(), render, fps=fps, own=seen.joined.number)
     seconds = by_second(seen, frames)
     if as_json:
         print(json.dumps({"study": figures, "seconds": seconds}, indent=2))
         return
     if seconds:
-        print_rows(f"{file}: errors in radii", seconds, as_json=False)
-    shown = {name: "-" if value is None else value for name, value in figures.items()}
-    print_figures(f"Study of {seen.joined.name or '(spectator)'}", {"study": shown}, as_json=False)
+        shown = [{name.replace("_", " "): value for name, value in row.items()} for row in seconds]
+        print_rows(f"{file}, second by second", shown, as_json=False)
+    print_figures(f"Study of {seen.joined.name or '(spectator)'}", {"study": figures}, as_json=False)
+    explained = "predicted equal: share of frames whose state had the server's very bits; 1 is all of them"
+    STDERR.print(explained, highlight=False)
 
 
 def _write(path: Path, frames: list[SeenFrame]) -> None:

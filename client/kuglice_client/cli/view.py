@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from rich.status import Status
 
-from kuglice.cli.figures import print_figures
+from kuglice.cli.figures import print_figures, print_groups
 from kuglice.cli.logs import STDERR, log_to_stderr
 from kuglice.cli.stop import stop_on_signals
 from kuglice.extras import require
 from kuglice.protocol import DEFAULT_ENDPOINT, Rectangle
 from kuglice_client.cli.finishing import finished
+from kuglice_client.cli.groups import VIEW, VIEW_SILENT
 from kuglice_client.cli.options import (
     AsJson,
     FilmRate,
@@ -109,7 +110,11 @@ def view(
         if film is not None:
             summary |= finished(film)
     write_summary(summary_json, summary)
-    print_figures(f"View of {summary['world']}", {"view": summary}, as_json=as_json)
+    title = f"View of {summary['world']}"
+    if as_json:
+        print_figures(title, {"view": summary}, as_json=True)
+    else:
+        print_groups(title, summary, VIEW, silent=VIEW_SILENT)
     if not summary["updates"]:
         STDERR.print("nothing was told")
         raise typer.Exit(1)

@@ -85,7 +85,7 @@ def server(
     Steps it at a fixed rate, publishes it, and takes inputs. Nothing else need be started: the server is its
     own Zenoh router.
 
-    Example: kuglice server arena --record out/game.kgr
+    Example: kuglice server arena --record game.kuglice
     """
     log_to_stderr()
     stop = stop_on_signals()

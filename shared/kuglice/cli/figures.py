@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
 from rich.console import Console
 from rich.table import Table
 
-__all__ = ["print_figures"]
+from kuglice.cli.logs import STDERR
+
+__all__ = ["print_figures", "print_groups"]
 
 NAMES = frozenset({"epoch", "number"})
 """Numbers that name something and count nothing: their digits are not grouped."""
@@ -34,6 +36,41 @@ def print_figures(title: str, columns: Mapping[str, Mapping[str, Any]], *, as_js
     Console().print(table)
 
 
+def print_groups(
+    title: str,
+    figures: Mapping[str, Any],
+    groups: Mapping[str, Sequence[str]],
+    *,
+    silent: Collection[str] = (),
+) -> None:
+    """One column for people, by `groups`: heading -> figures. What is in no group comes last.
+
+    Of `silent` figures only those are shown that are not 0 or missing: what can go wrong, and has not.
+    """
+    flat = dict(_flat(figures))
+    rest = [name for name in figures if not any(name in names for names in groups.values())]
+    table = Table(title=title, show_header=False)
+    for _ in range(2):
+        table.add_column()
+    table.add_column(justify="right")
+    for heading, names in {**groups, "more": rest}.items():
+        shown = [
+            (figure, value)
+            for name in names
+            for figure, value in flat.items()
+            if figure.partition(" ")[0] == name and (value or name not in silent)
+        ]
+        for place, (figure, value) in enumerate(shown):
+            name = figure.removeprefix(f"{heading} ").replace("_", " ")
+            table.add_row("" if place else heading, name, _shown(figure, value))
+        table.add_section()
+    Console().print(table)
+    if silent:
+        STDERR.print(
+            "What could have gone wrong and did not is left out; --json has every figure.", highlight=False
+        )
+
+
 def _flat(column: Mapping[str, Any], within: str = "") -> Iterator[tuple[str, Any]]:
     for figure, value in column.items():
         if isinstance(value, Mapping):
@@ -45,6 +82,8 @@ def _flat(column: Mapping[str, Any], within: str = "") -> Iterator[tuple[str, An
 def _shown(figure: str, value: object) -> str:
     if figure in NAMES:
         return str(value)
+    if value is None or value == []:
+        return "-"
     if isinstance(value, float):
         return f"{value:,.3g}" if abs(value) < 1000 else f"{value:,.0f}"
     if isinstance(value, bool):

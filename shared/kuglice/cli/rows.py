@@ -27,5 +27,11 @@ def print_rows(title: str, rows: Sequence[Mapping[str, Any]], *, as_json: bool) 
         # Text wraps instead: half a name is no name.
         table.add_column(heading, justify="right" if number else "left", overflow="fold", no_wrap=number)
     for row in rows:
-        table.add_row(*(f"{value:,}" if isinstance(value, int) else str(value) for value in row.values()))
+        table.add_row(*map(_shown, row.values()))
     Console(width=None if sys.stdout.isatty() else WIDE).print(table)
+
+
+def _shown(value: object) -> str:
+    if value is None:
+        return "-"
+    return f"{value:,}" if isinstance(value, int) else str(value)

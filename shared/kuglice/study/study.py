@@ -29,15 +29,15 @@ Ids = NDArray[np.uint64]
 class SeenFrame:
     """A frame whose balls were recorded, against the authoritative states at its tick.
 
-    `at`: seconds since the first event. `ahead`: ticks that the drawn state was ahead of the confirmed one. `right`:
-    whether the predicted state had the very bits that the server's had in the end. Errors are distances between where
+    `at`: seconds since the first event. `ahead`: ticks that the drawn state was ahead of the confirmed one.
+    `predicted_equal`: whether the predicted state had the very bits that the server's had in the end. Errors are distances between where
     a ball was drawn and where it should have been, in its radii: of all balls, and of one's own (None without one).
     """
 
     at: float
     tick: int
     ahead: int
-    right: bool
+    predicted_equal: bool
     mean_error: float
     worst_error: float
     own_error: float | None
@@ -165,7 +165,7 @@ class Study:
             at=frame.at - self.began,
             tick=frame.tick,
             ahead=frame.tick - frame.confirmed,
-            right=frame.hash == world.state_hash,
+            predicted_equal=frame.hash == world.state_hash,
             mean_error=float(errors.mean()) if len(errors) else 0.0,
             worst_error=float(errors.max(initial=0.0)),
             own_error=float(own[0]) if len(own) else None,

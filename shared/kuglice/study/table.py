@@ -14,7 +14,10 @@ __all__ = ["by_second", "summary"]
 
 
 def summary(study: Study, frames: Sequence[SeenFrame]) -> dict[str, Any]:
-    """`frames`: those of the study. Errors in radii, delays in milliseconds; None where there is nothing to count."""
+    """`frames`: those of the study. Delays in milliseconds; None where there is nothing to count.
+
+    `predicted_equal`: share of frames whose predicted state had the very bits that the server's had in the end.
+    """
     rollbacks = [event for event in study.events if isinstance(event, Rollback)]
     answered = [event for event in study.events if isinstance(event, Answered)]
     delays = own_screen_delays(study)
@@ -24,18 +27,18 @@ def summary(study: Study, frames: Sequence[SeenFrame]) -> dict[str, Any]:
         "seconds": study.events[-1].at - study.began,
         "joined": sum(isinstance(event, Joined) for event in study.events),
         "frames": sum(isinstance(event, DrawnFrame) for event in study.events),
-        "frames compared": len(frames),
-        "predicted right": _mean(frame.right for frame in frames),
-        "ticks ahead": _mean(frame.ahead for frame in frames),
-        "mean error radii": _mean(frame.mean_error for frame in frames),
-        "worst error radii": max((frame.worst_error for frame in frames), default=None),
-        "own mean error radii": _mean(own),
-        "own worst error radii": max(own, default=None),
+        "frames_compared": len(frames),
+        "predicted_equal": _mean(frame.predicted_equal for frame in frames),
+        "ticks_ahead": _mean(frame.ahead for frame in frames),
+        "mean_error_radii": _mean(frame.mean_error for frame in frames),
+        "worst_error_radii": max((frame.worst_error for frame in frames), default=None),
+        "own_mean_error_radii": _mean(own),
+        "own_worst_error_radii": max(own, default=None),
         "rollbacks": len(rollbacks),
-        "mean rollback ticks": _mean(one.end - one.first for one in rollbacks),
-        "inputs answered": len(answered),
-        "inputs late": sum(one.early is not None and one.early < 0 for one in answered),
-        "own screen delay ms": _milliseconds(delays),
+        "mean_rollback_ticks": _mean(one.end - one.first for one in rollbacks),
+        "inputs_answered": len(answered),
+        "inputs_late": sum(one.early is not None and one.early < 0 for one in answered),
+        "own_screen_delay_ms": _milliseconds(delays),
     }
 
 
@@ -50,13 +53,13 @@ def by_second(study: Study, frames: Sequence[SeenFrame]) -> list[dict[str, Any]]
             {
                 "second": second,
                 "frames": sum(isinstance(event, DrawnFrame) for event in events),
-                "ticks ahead": round(statistics.fmean(frame.ahead for frame in here), 1),
-                "right %": round(100 * statistics.fmean(frame.right for frame in here), 1),
-                "mean error": round(statistics.fmean(frame.mean_error for frame in here), 4),
-                "worst error": round(max(frame.worst_error for frame in here), 4),
-                "own error": round(statistics.fmean(own), 4) if own else "",
+                "ticks_ahead": round(statistics.fmean(frame.ahead for frame in here), 1),
+                "predicted_equal": round(statistics.fmean(frame.predicted_equal for frame in here), 3),
+                "mean_error_radii": round(statistics.fmean(frame.mean_error for frame in here), 4),
+                "worst_error_radii": round(max(frame.worst_error for frame in here), 4),
+                "own_mean_error_radii": round(statistics.fmean(own), 4) if own else None,
                 "rollbacks": sum(isinstance(event, Rollback) for event in events),
-                "late inputs": sum(
+                "inputs_late": sum(
                     isinstance(event, Answered) and event.early is not None and event.early < 0
                     for event in events
                 ),
