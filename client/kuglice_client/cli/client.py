@@ -72,7 +72,7 @@ def client(
     size: Annotated[str, typer.Option(help="Width and height of the film in pixels.")] = "1280x720",
     style: FilmStyle = "discs",
     overlay: Annotated[
-        list[str] | None, typer.Option(help="tick, tree; may be repeated. [default: tick]")
+        list[str] | None, typer.Option(help="tick, tree, scale; may be repeated. [default: tick]")
     ] = None,
     trails: Annotated[float, typer.Option(help="Seconds after which a trail has faded, 0 for none.")] = 0.0,
     still_every: Annotated[

@@ -36,16 +36,21 @@ __all__ = ["register"]
 
 MOVED_EVERY_SECONDS = 0.1
 FASTEST_PAN = 1e6
+OVERLAYS = ("tick", "scale")
 
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    app.command("view")(view)
+    # A corner may have a minus sign, and is no option.
+    app.command("view", context_settings={"ignore_unknown_options": True})(view)
 
 
 def view(
     rectangle: Annotated[
-        str, typer.Argument(help="Left bottom corner and size, in metres.", metavar="X,Y,WIDTH,HEIGHT")
+        str,
+        typer.Argument(
+            help="Left bottom corner, of either sign, and size, in metres.", metavar="X,Y,WIDTH,HEIGHT"
+        ),
     ],
     *,
     connect: Annotated[
@@ -171,7 +176,7 @@ def _film_settings(
     left, bottom, right, top = rectangle
     # Encoders want even sizes.
     height = 2 * max(8, round(width * (top - bottom) / (right - left) / 2))
-    return FilmSettings(path=path, fps=fps, size=(width, height), style=style)
+    return FilmSettings(path=path, fps=fps, size=(width, height), style=style, overlays=OVERLAYS)
 
 
 def _film(looking: View, settings: FilmSettings) -> tuple[Film, Callable[[View, float], None]]:

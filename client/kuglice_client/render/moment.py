@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from kuglice import World
 from kuglice.blending import blend
 
-__all__ = ["HashState", "Moment", "Verdict", "between"]
+__all__ = ["HashState", "Moment", "Verdict", "Window", "between"]
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.uint64]
@@ -28,6 +28,15 @@ class HashState:
     hash: int
     tick: int
     verdict: Verdict = "local"
+
+
+@dataclass(frozen=True, slots=True)
+class Window:
+    """The part of a world that a picture shows: `rectangle` of `box`, both left, bottom, right, top in metres."""
+
+    rectangle: tuple[float, float, float, float]
+    box: tuple[float, float, float, float]
+    walls: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +57,8 @@ class Moment:
     hash_state: HashState | None = None
     nodes: Floats | None = None
     """(k, 4) left, bottom, right, top of quadtree nodes."""
+    window: Window | None = None
+    """What the picture is a part of; None: it is the whole box."""
 
     @classmethod
     def of(cls, world: World, hash_state: HashState | None = None, *, nodes: bool = False) -> Self:

@@ -15,6 +15,7 @@ from kuglice_client.render.overlays import OVERLAYS
 from kuglice_client.render.stage import Layer, Pixels, Stage
 from kuglice_client.render.styles import STYLES
 from kuglice_client.render.trails import Trails
+from kuglice_client.render.walls import draw_walls
 
 __all__ = ["Renderer", "check_look"]
 
@@ -67,6 +68,7 @@ class Renderer:
             np.copyto(self._pixels, self._background)
         else:
             np.copyto(self._pixels, self._trails.follow(self.stage, moment))
+        draw_walls(self._pixels, self.stage, moment)
         self._style(self._pixels, self.stage, moment)
         for overlay in self._overlays:
             overlay(self._pixels, self.stage, moment)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from kuglice import Scene
-from kuglice_client.render.moment import Moment
+from kuglice_client.render.moment import Moment, Window
 
 if TYPE_CHECKING:
     from kuglice.protocol import Rectangle
@@ -35,6 +35,7 @@ def moment(view: View, alpha: float) -> Moment:
         time=world.time - (1 - alpha) / world.scene.tick_rate,
         fixed=np.isinf(world.mass[near]),
         players={ball: client for client, ball in world.players if ball is not None},
+        window=Window(view.rectangle, world.scene.box, world.scene.walls),
     )
 
 

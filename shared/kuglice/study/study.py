@@ -30,8 +30,9 @@ class SeenFrame:
     """A frame whose balls were recorded, against the authoritative states at its tick.
 
     `at`: seconds since the first event. `ahead`: ticks that the drawn state was ahead of the confirmed one.
-    `predicted_equal`: whether the predicted state had the very bits that the server's had in the end. Errors are distances between where
-    a ball was drawn and where it should have been, in its radii: of all balls, and of one's own (None without one).
+    `predicted_equal`: whether the predicted state had the very bits that the server's had in the end. Errors are
+    distances between where a ball was drawn and where it should have been, in its radii: of all balls, and of one's own
+    (None without one).
     """
 
     at: float

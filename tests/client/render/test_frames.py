@@ -179,7 +179,7 @@ def test_texts_are_clipped_to_small_pictures():
     ("wrong", "message"),
     [
         ({"style": "jelly"}, "style 'jelly'.*discs, fluid"),
-        ({"overlays": ("tick", "forest")}, "overlay 'forest'.*tick, tree"),
+        ({"overlays": ("tick", "forest")}, "overlay 'forest'.*tick, tree, scale"),
         ({"trails": -1.0}, r"trails -1\.0"),
         ({"trails": float("nan")}, "trails nan"),
         ({"size": (0, 5)}, "size 0x5"),

@@ -36,7 +36,7 @@ def draw_tick(pixels: Pixels, stage: Stage, moment: Moment) -> None:
     words = [
         (f"tick {moment.tick:,}", TEXT),
         (f"{moment.time:.2f} s", FAINT),
-        (f"{len(moment.id):,} balls", FAINT),
+        (f"{len(moment.id):,} ball{'' if len(moment.id) == 1 else 's'}", FAINT),
     ]
     if moment.hash_state is not None:
         words += _hash_words(moment, moment.hash_state)
