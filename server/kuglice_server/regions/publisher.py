@@ -18,7 +18,8 @@ import zenoh
 from kuglice import World
 from kuglice.errors import ProtocolError
 from kuglice.protocol import Holding, Keys, Region, RegionTerms, encode
-from kuglice_server.regions.watch import Watch, Watched, is_heard
+from kuglice_server.regions.audience import Audience
+from kuglice_server.regions.watch import Watch, Watched
 
 __all__ = ["RegionPublisher"]
 
@@ -53,6 +54,7 @@ class RegionPublisher:
             congestion_control=zenoh.CongestionControl.DROP,
             priority=zenoh.Priority.DATA,
         )
+        self._hearing = Audience(self._holding)
         self._held: tuple[object, object] | None = None
         self._held_at = 0
         self._told_empty: dict[tuple[int, int], int] = {}
@@ -78,7 +80,7 @@ class RegionPublisher:
 
     def _publish(self, world: World, turn: int) -> None:
         self._tell_holding(world, turn)
-        watched = self._watch.looked_at()
+        watched = self._watch.looked_at(turn)
         due = [one for one in watched if (turn + one.node) % (1 << one.pace) == 0]
         if due:
             self._tell(world, due, turn)
@@ -123,7 +125,7 @@ class RegionPublisher:
             return None
 
     def _tell_holding(self, world: World, turn: int) -> None:
-        if not is_heard(self._holding):
+        if not self._hearing.present:
             return
         now = (world.players, world.held)
         if now == self._held and turn - self._held_at < self._again:

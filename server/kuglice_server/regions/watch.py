@@ -1,8 +1,7 @@
 """Which nodes somebody looks at: a quadtree of publishers, grown only where there are subscribers.
 
-Zenoh says of a publisher whether any subscription matches its key. A publisher of `region/0/1/**`, which never puts
-anything, so says whether anybody looks at anything below node 1. While nobody looks at all, the root of each pace
-is all there is to ask, and asking takes a microsecond.
+A publisher of `region/0/1/**`, which never puts anything, says by its audience whether anybody looks at anything below
+node 1. While nobody looks at all, there is only the root of each pace.
 """
 
 from __future__ import annotations
@@ -13,21 +12,17 @@ from dataclasses import dataclass, field
 import zenoh
 
 from kuglice.protocol import PACES, Keys
+from kuglice_server.regions.audience import Audience
 
-__all__ = ["Watch", "Watched", "is_heard"]
+__all__ = ["Watch", "Watched"]
 
 DECLARED_PER_TURN = 256
 """Declaring takes tens of microseconds each, and a tick waits for it."""
 WITHDRAWN_PER_TURN = 64
+ASKED_EVERY_TURNS = 64
+"""Each node, at turns of its own."""
 MOST_PUBLISHERS = 8192
 """Publishers of nodes that nobody looks at any more are kept, for a view may come back, up to so many."""
-
-
-def is_heard(publisher: zenoh.Publisher) -> bool:
-    """Whether any subscription matches its key now."""
-    # The stubs of Zenoh call this a bool; it is an object that has one.
-    status: object = publisher.matching_status
-    return bool(getattr(status, "matching", status))
 
 
 @dataclass
@@ -35,11 +30,8 @@ class _Node:
     number: int
     path: tuple[int, ...]
     publisher: zenoh.Publisher
+    audience: Audience
     below: list[_Node] = field(default_factory=list)
-
-    @property
-    def looked_at(self) -> bool:
-        return is_heard(self.publisher)
 
 
 @dataclass(frozen=True)
@@ -71,15 +63,17 @@ class Watch:
         """For closing."""
         return tuple(node.publisher for root in self._roots for node in _all(root))
 
-    def looked_at(self) -> list[Watched]:
-        """Asks. Of a view that has just come, nodes may be missing that the next turn finds."""
+    def looked_at(self, turn: int) -> list[Watched]:
+        """Of a view that has just come, nodes may be missing that the next turn finds."""
         found: list[Watched] = []
         allowance = DECLARED_PER_TURN
         for pace, root in enumerate(self._roots):
             waiting = [root]
             while waiting:
                 node = waiting.pop()
-                if not node.looked_at:
+                if (turn + node.number) % ASKED_EVERY_TURNS == 0:
+                    node.audience.ask()
+                if not node.audience.present:
                     continue
                 if len(node.path) == self._depth:
                     found.append(Watched(pace, node.number, node.publisher))
@@ -106,7 +100,7 @@ class Watch:
             congestion_control=zenoh.CongestionControl.DROP,
             priority=zenoh.Priority.DATA,
         )
-        return _Node(number, path, publisher)
+        return _Node(number, path, publisher, Audience(publisher))
 
     def _withdraw(self) -> None:
         allowance = WITHDRAWN_PER_TURN
@@ -114,7 +108,7 @@ class Watch:
             for node in list(_all(root)):
                 if allowance <= 0:
                     return
-                if node.below and not node.looked_at:
+                if node.below and not node.audience.present:
                     gone = [one for below in node.below for one in _all(below)]
                     node.below = []
                     for one in gone:
