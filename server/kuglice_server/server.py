@@ -7,6 +7,7 @@ import threading
 import time
 from collections import Counter
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Self
 
 import zenoh
@@ -80,6 +81,7 @@ class Server:
         region_every = max(1, round(self.rate / settings.region_rate))
         self._terms = choose_terms(self.world, rate=self.rate / region_every)
         self._reference_speed = reference_speed(scene)
+        self._teller = ThreadPoolExecutor(1, thread_name_prefix="regions")
         self._regions = RegionPublisher(
             self._session,
             keys,
@@ -88,6 +90,7 @@ class Server:
             world=self.world,
             every=region_every,
             counters=self.counters,
+            teller=self._teller,
         )
         tokens: zenoh.Subscriber[Any] = self._session.liveliness().declare_subscriber(
             keys.clients, zenoh.handlers.RingChannel(WAITING_MESSAGES), history=True
@@ -209,6 +212,7 @@ class Server:
         """Finish the record, leave the network. False if Zenoh did not finish within `timeout` seconds."""
         if self._record is not None:
             self._record.close()
+        self._teller.shutdown()
         closed = close_session(self._session, (*self._declared, *self._regions.declared), timeout=timeout)
         if not closed:
             log.error("the network session did not close within %g s", timeout)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from concurrent.futures import Executor, Future
 
 import numpy as np
 import pytest
@@ -28,10 +29,35 @@ from kuglice_server.regions import RegionPublisher, choose_terms
 KEYS = Keys("test")
 
 
+class AtOnce(Executor):
+    """Does at once what it is given."""
+
+    def submit(self, call, /, *given):
+        done = Future()
+        done.set_result(call(*given))
+        return done
+
+
+class Busy(Executor):
+    """Has something else to do until `free`."""
+
+    def __init__(self) -> None:
+        self._waiting = []
+
+    def submit(self, call, /, *given):
+        self._waiting.append((future := Future(), call, given))
+        return future
+
+    def free(self) -> None:
+        for future, call, given in self._waiting:
+            future.set_result(call(*given))
+        self._waiting.clear()
+
+
 class Wire:
     """A publisher of a world's regions, and a session that looks at them."""
 
-    def __init__(self, world: kg.World, every: int = 1) -> None:
+    def __init__(self, world: kg.World, every: int = 1, teller: Executor | None = None) -> None:
         endpoint = free_endpoint()
         self.world = world
         self.counters: Counter[str] = Counter()
@@ -41,7 +67,14 @@ class Wire:
         self.session = open_session(server_configuration(listen=[endpoint], connect=[]))
         self.viewer = open_session(client_configuration([endpoint], timeout=5.0))
         self.publisher = RegionPublisher(
-            self.session, KEYS, self.terms, epoch=9, world=world, every=every, counters=self.counters
+            self.session,
+            KEYS,
+            self.terms,
+            epoch=9,
+            world=world,
+            every=every,
+            counters=self.counters,
+            teller=teller or AtOnce(),
         )
         self._declared = []
 
@@ -186,6 +219,26 @@ def test_the_rate_is_in_ticks(wired):
 
     until(four, what="four messages")
     assert ticks == [6, 12, 18, 24]
+
+
+def test_a_round_is_left_out_while_the_last_one_is_not_told_yet(wired):
+    teller = Busy()
+    wire = wired(gas(), teller=teller)
+    heard = wire.look(KEYS.region(0, wire.nodes.path(6)))
+    for _ in range(3):
+        wire.turn()
+    teller.free()
+    wire.turn()
+    teller.free()
+    ticks: list[int] = []
+
+    def two() -> bool:
+        ticks.extend(message.tick for message in heard())
+        return len(ticks) == 2
+
+    until(two, what="two messages")
+    assert ticks == [1, 4]
+    assert wire.counters["region rounds left out"] == 2
 
 
 def test_a_region_that_became_empty_is_told_at_once_and_then_now_and_then(wired):

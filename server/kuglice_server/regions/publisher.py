@@ -4,6 +4,10 @@ Nodes that nobody looks at are neither packed nor put. An empty node is told whe
 second, so that a message that was lost leaves no ball behind for long. At pace p a node is told every 2^p-th time;
 its number says at which of those, so that they do not all fall into one tick.
 
+The tick only finds out who looks, and packs: encoding and putting go on in a thread beside it, for a copy for each of
+many views takes longer than a tick may wait. If that is not done with the last round when the next is due, the next is
+left out: the one after it is newer.
+
 They go over the stream, and are dropped where it cannot take them. All that is due at once goes out in large batches,
 which costs a fifteenth of sending each by itself; as a datagram such a batch would be lost with any of its packets.
 """
@@ -12,6 +16,8 @@ from __future__ import annotations
 
 import logging
 from collections import Counter
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor, Future
 
 import zenoh
 
@@ -30,7 +36,9 @@ SAID_AGAIN_SECONDS = 1.0
 
 
 class RegionPublisher:
-    """`every`: ticks between two messages about one node at pace 0. Not for two threads at once."""
+    """`every`: ticks between two messages about one node at pace 0. `teller`: runs what goes on beside the tick, one
+    thing at a time; whoever made it shuts it down before the session is closed. Not for two threads at once.
+    """
 
     def __init__(
         self,
@@ -42,11 +50,14 @@ class RegionPublisher:
         world: World,
         every: int,
         counters: Counter[str],
+        teller: Executor,
     ) -> None:
         self._epoch = epoch
         self._every = every
         self._again = max(1, round(SAID_AGAIN_SECONDS * terms.rate))
         self._counters = counters
+        self._teller = teller
+        self._told: Future[None] | None = None
         self._packer = terms.packer(world.scene.box)
         self._watch = Watch(session, keys, terms.depth)
         self._holding = session.declare_publisher(
@@ -80,6 +91,12 @@ class RegionPublisher:
 
     def _publish(self, world: World, turn: int) -> None:
         self._tell_holding(world, turn)
+        if self._told is not None:
+            if not self._told.done():
+                self._counters["region rounds left out"] += 1
+                return
+            # What went wrong beside the tick goes wrong here.
+            self._told.result()
         watched = self._watch.looked_at(turn)
         due = [one for one in watched if (turn + one.node) % (1 << one.pace) == 0]
         if due:
@@ -93,12 +110,15 @@ class RegionPublisher:
         packed, left_out = world.regions(self._packer, nodes)
         self._counters["balls not told"] += left_out
         balls = dict(zip(nodes, packed, strict=True))
+        worth = [one for one in due if self._worth_telling(one, balls[one.node], turn)]
+        self._told = self._teller.submit(self._put_all, world.tick, worth, balls)
+
+    def _put_all(self, tick: int, worth: Sequence[Watched], balls: Mapping[int, bytes]) -> None:
+        """In the thread of the teller."""
         encoded: dict[int, bytes | None] = {}
-        for one in due:
-            if not self._worth_telling(one, balls[one.node], turn):
-                continue
+        for one in worth:
             if one.node not in encoded:
-                encoded[one.node] = self._encoded(world.tick, one.node, balls[one.node])
+                encoded[one.node] = self._encoded(tick, one.node, balls[one.node])
             data = encoded[one.node]
             if data is not None:
                 self._put(one.publisher, data)
@@ -146,6 +166,6 @@ class RegionPublisher:
         self._counters["region bytes out"] += len(data)
 
     def _not_published(self, error: zenoh.ZError) -> None:
-        if not self._counters["unpublished"]:
+        if not self._counters["regions unpublished"]:
             log.error("a region cannot be published: %s", error)
-        self._counters["unpublished"] += 1
+        self._counters["regions unpublished"] += 1
