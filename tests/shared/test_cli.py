@@ -209,8 +209,25 @@ def test_a_file_that_is_no_replay_is_refused(tmp_path):
     (tmp_path / "scene.toml").write_text("box = 1")
     shown = kuglice("replay", str(tmp_path / "scene.toml"))
     assert shown.returncode == 2
-    assert "not a replay file" in shown.stderr
+    assert "not a replay file: its first line is not 'kuglice replay'" in shown.stderr
     assert shown.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("command", "told"),
+    [
+        ("bench wire --scene nope", "kuglice: scene 'nope': neither a file nor one of gas, rain"),
+        ("bench network --link nope", "link 'nope': must be one of auto, tunnel, proxy"),
+        ("render gas --out x.bmp", "kuglice: output x.bmp: must be a directory, or its suffix one of .mp4"),
+    ],
+)
+def test_what_cannot_be_is_told_before_anything_is_done(command, told, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    shown = kuglice(*command.split())
+    assert (shown.returncode, shown.stdout) == (2, "")
+    assert told in shown.stderr
+    assert shown.stderr.strip("\n") == shown.stderr.rstrip("\n")
+    assert not list(tmp_path.iterdir())
 
 
 def test_digits_are_grouped_in_counts_and_not_in_names(capsys):

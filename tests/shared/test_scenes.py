@@ -182,6 +182,7 @@ def test_scenes_are_found_by_name_parameters_and_file(tmp_path):
         ("arena:balls=-4", "scene arena: balls = -4"),
         ("pegs:rows=-3", "scene pegs: rows = -3"),
         ("missing.toml", "cannot be read"),
+        ("/", "scene '/': is a directory, must be a TOML file or one of gas, rain"),
     ],
 )
 def test_a_scene_that_is_not_found_is_explained(text, told):

@@ -108,6 +108,6 @@ def _progress(ticks: int) -> Iterator[Callable[[], None]]:
         TextColumn("{task.percentage:.0f} %"),
         TimeRemainingColumn(),
     )
-    with Progress(*columns, console=STDERR, transient=True) as progress:
+    with Progress(*columns, console=STDERR, transient=True, disable=not STDERR.is_terminal) as progress:
         task = progress.add_task("drawing", total=ticks)
         yield lambda: progress.advance(task)

@@ -51,7 +51,7 @@ def demo(
         out=out, scene=scene, bots=tuple(bot or DEFAULTS.bots), seconds=seconds, size=size, film=film
     )
     columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=STDERR, transient=True) as progress:
+    with Progress(*columns, console=STDERR, transient=True, disable=not STDERR.is_terminal) as progress:
         task = progress.add_task("starting", total=seconds)
         outcome = play(settings, lambda done, what: progress.update(task, completed=done, description=what))
     (out / "summary.json").write_text(json.dumps(outcome.figures(), indent=2) + "\n")

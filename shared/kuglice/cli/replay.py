@@ -103,7 +103,7 @@ def _watched(worlds: Iterable[World], done: Callable[[], None]) -> Iterator[Worl
 @contextmanager
 def _progress(ticks: int, what: str) -> Iterator[Callable[[], None]]:
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=STDERR, transient=True) as progress:
+    with Progress(*columns, console=STDERR, transient=True, disable=not STDERR.is_terminal) as progress:
         # The state at the start counts too.
         task = progress.add_task(what, total=ticks + 1)
         yield lambda: progress.advance(task)

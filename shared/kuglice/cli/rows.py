@@ -21,6 +21,9 @@ def print_rows(title: str, rows: Sequence[Mapping[str, Any]], *, as_json: bool) 
     if as_json:
         print(json.dumps(list(rows), indent=2))
         return
+    if not rows:
+        print(f"{title}: nothing was measured", file=sys.stderr)
+        return
     table = Table(title=title, title_justify="left", header_style="bold")
     for heading, value in rows[0].items():
         number = isinstance(value, int | float)

@@ -39,7 +39,7 @@ def read_records(path: Path, *, magic: bytes, noun: str, adapter: TypeAdapter[R]
     """
     with path.open("rb") as file:
         if file.read(len(magic)) != magic:
-            raise ReplayError(f"{path}: not a {noun} file: it does not start with {magic!r}")
+            raise ReplayError(f"{path}: not a {noun} file: its first line is not {magic.decode().strip()!r}")
         while len(frame := file.read(FRAME.size)) == FRAME.size:
             at = file.tell() - FRAME.size
             length, checksum = FRAME.unpack(frame)

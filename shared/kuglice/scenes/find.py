@@ -17,8 +17,10 @@ __all__ = ["find", "parameters"]
 
 def find(text: str) -> Scene:
     """A file if it ends in .toml, else a built-in scene, with parameters after a colon. Raises SceneError."""
-    if text.endswith(".toml") or _is_file(text):
+    if text.endswith(".toml") or _there(text, Path.is_file):
         return Scene.load(text)
+    if text and _there(text, Path.is_dir):
+        raise SceneError(f"scene {text!r}: is a directory, must be a TOML file or one of {', '.join(TABLE)}")
     name, _, given = text.partition(":")
     make = TABLE.get(name)
     if make is None:
@@ -38,9 +40,9 @@ def find(text: str) -> Scene:
         raise SceneError(f"scene {text!r}: these parameters make no scene: {error}") from error
 
 
-def _is_file(text: str) -> bool:
+def _there(text: str, kind: Callable[[Path], bool]) -> bool:
     try:
-        return Path(text).is_file()
+        return kind(Path(text))
     except OSError:
         # Longer than any name of a file.
         return False

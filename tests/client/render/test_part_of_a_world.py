@@ -64,12 +64,8 @@ def test_the_scale_is_at_the_bottom_left_and_tells_where_one_is():
     rows, columns = np.nonzero(changed)
     assert rows.min() > 0.8 * SIZE[1]
     assert columns.max() < 0.8 * SIZE[0]
-    assert (differing(here, "scale") != differing(there, "scale")).any() or not np.array_equal(
-        *(
-            Renderer(scene(), size=SIZE, overlays=("scale",)).frame(moment(window=one))
-            for one in (here, there)
-        )
-    )
+    renderer = Renderer(scene(), size=SIZE, overlays=("scale",))
+    assert (renderer.frame(moment(window=here)).copy() != renderer.frame(moment(window=there))).any()
 
 
 def test_a_picture_of_the_whole_box_has_a_scale_too():

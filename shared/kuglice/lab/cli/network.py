@@ -13,6 +13,7 @@ from kuglice.errors import KugliceError
 from kuglice.lab.cli.progress import progress
 from kuglice.lab.machine import this_machine
 from kuglice.lab.network.cell import Cell
+from kuglice.lab.network.conditioner import LINKS
 from kuglice.lab.network.markdown import markdown
 from kuglice.lab.network.table import cells, snapshot_cells
 from kuglice.lab.network.tun_device import why_impossible
@@ -55,6 +56,8 @@ def network(
     trips of 0, 50, 150 and 300 ms, without and with 20 % jitter, with 2 % of the packets lost each way. At 150
     ms with jitter the link is then cut for 5 s. Under half a minute per cell.
     """
+    if link not in LINKS:
+        raise typer.BadParameter(f"link {link!r}: must be one of {', '.join(LINKS)}", param_hint="--link")
     if link == "auto" and (reason := why_impossible()) is not None:
         print(f"no tunnel, so a proxy: {reason}; bytes on the wire are not measured", file=sys.stderr)
     chosen = (

@@ -15,8 +15,9 @@ from kuglice.lab.network.tun_device import why_impossible
 from kuglice.lab.network.tunnel import SERVER_ADDRESS
 from kuglice.processes import free_port
 
-__all__ = ["Conditioner", "ProxyLink", "TunnelLink", "open_link"]
+__all__ = ["LINKS", "Conditioner", "ProxyLink", "TunnelLink", "open_link"]
 
+LINKS = ("auto", "tunnel", "proxy")
 ANSWER_SECONDS = 10.0
 END_SECONDS = 5.0
 TUNNEL_PORT = 7447
@@ -145,4 +146,4 @@ def open_link(conditions: Conditions, kind: str = "auto") -> Conditioner:
         case "proxy":
             return ProxyLink(conditions)
         case _:
-            raise NetworkError(f"link {kind!r}: must be auto, tunnel or proxy")
+            raise NetworkError(f"link {kind!r}: must be one of {', '.join(LINKS)}")

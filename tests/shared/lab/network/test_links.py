@@ -193,5 +193,5 @@ def test_a_tunnel_that_is_killed_leaves_nothing_behind():
 
 
 def test_an_unknown_link_is_refused():
-    with pytest.raises(NetworkError, match="must be auto, tunnel or proxy"):
+    with pytest.raises(NetworkError, match="must be one of auto, tunnel, proxy"):
         open_link(Conditions(), "string")
