@@ -6,11 +6,11 @@ import logging
 import threading
 import time
 from collections.abc import Iterator
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import zenoh
 
-from kuglice.errors import JoinError, ProtocolError
+from kuglice.errors import ProtocolError
 from kuglice.protocol import (
     ClientInputs,
     Declared,
@@ -22,12 +22,11 @@ from kuglice.protocol import (
     close_session,
     decode,
     encode,
-    given_up_within,
     open_links,
-    open_session,
     wants_datagrams,
 )
 from kuglice_client.ask import Asked
+from kuglice_client.opening import Opening
 from kuglice_client.traffic import Traffic
 
 __all__ = ["Link"]
@@ -39,7 +38,6 @@ Samples = zenoh.Subscriber[zenoh.handlers.Handler[zenoh.Sample]]
 
 TICK_RING = 1024
 SNAPSHOT_RING = 64
-RETRY_SECONDS = 0.05
 
 
 class Link:
@@ -58,10 +56,10 @@ class Link:
         self.malformed = 0
         self.wants_datagrams = any(map(wants_datagrams, connect))
         # Who opens another session after a cut needs none that comes back by itself, with what it was before.
-        self.comes_back = not (renewable and self.wants_datagrams)
+        self.comes_back = not renewable
         self._configuration = client_configuration(connect, timeout=1.0, reconnect=self.comes_back)
-        self.session = _connected(self._configuration, deadline, stop)
-        self._opening: _Opening | None = None
+        self.session = Opening(self._configuration).wait(deadline, stop)
+        self._opening: Opening | None = None
         self._declared: list[Declared] = []
         self._goodbye: _Goodbye | None = None
         self._who: tuple[str, str] | None = None
@@ -128,18 +126,17 @@ class Link:
     def begin_renewal(self) -> None:
         """Open another session beside this one, unless that is being done already."""
         if self._opening is None:
-            self._opening = _Opening(self._configuration)
+            self._opening = Opening(self._configuration)
 
     def renewed(self) -> bool:
         """Whether another session is open by now; then all that is said and asked goes over it, and the old one ends.
 
         The server sees no difference: the token is never gone.
         """
-        if self._opening is None or self._opening.running:
-            return False
-        session, self._opening = self._opening.session, None
+        session = None if self._opening is None else self._opening.poll(time.monotonic())
         if session is None:
             return False
+        self._opening = None
         old, declared = self.session, [one for one in self._declared if one is not self._goodbye]
         self.session, self._declared, self._goodbye = session, [], None
         if self._ticks is not None:
@@ -157,8 +154,8 @@ class Link:
         """
         if self._goodbye is not None:
             self._goodbye.linger = min(linger, timeout / 2)
-        if self._opening is not None and self._opening.session is not None:
-            close_session(self._opening.session, [], timeout=0.0)
+        if self._opening is not None:
+            self._opening.end()
         return close_session(self.session, reversed(self._declared), timeout=timeout)
 
     def _subscribe(self, key: str, ring: int) -> Samples:
@@ -195,36 +192,3 @@ class _Goodbye:
             allowed_destination=zenoh.Locality.REMOTE,
         )
         time.sleep(self.linger)
-
-
-class _Opening:
-    """A session that is being opened in a thread of its own: that may take a second."""
-
-    def __init__(self, configuration: dict[str, Any]) -> None:
-        self.session: zenoh.Session | None = None
-        self._configuration = configuration
-        self._thread = threading.Thread(target=self._open, name="open zenoh session", daemon=True)
-        self._thread.start()
-
-    @property
-    def running(self) -> bool:
-        """Whether that is still going on."""
-        return self._thread.is_alive()
-
-    def _open(self) -> None:
-        try:
-            self.session = open_session(self._configuration)
-        except ProtocolError as error:
-            log.debug("%s", error)
-
-
-def _connected(configuration: dict[str, Any], deadline: float, stop: threading.Event) -> zenoh.Session:
-    attempt = configuration
-    while True:
-        try:
-            return open_session(attempt)
-        except ProtocolError as error:
-            # Where datagrams are wanted too, an attempt ends at once if nobody is there.
-            if time.monotonic() > deadline or stop.wait(RETRY_SECONDS):
-                raise JoinError(str(error)) from error
-            attempt = given_up_within(configuration, deadline - time.monotonic())

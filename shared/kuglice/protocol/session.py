@@ -19,7 +19,7 @@ __all__ = [
     "Declared",
     "client_configuration",
     "close_session",
-    "given_up_within",
+    "nobody_answers",
     "open_links",
     "open_session",
     "server_configuration",
@@ -32,7 +32,6 @@ LINKS = 2
 """Between two sessions: a stream, and datagrams beside it."""
 OPEN_TIMEOUT_MS = 1500
 """How long a link that nobody answers on is tried: it may have been cut, or another one be there."""
-LEAST_OPEN_TIMEOUT_MS = 500
 RETRY_MS = 200
 NEVER_MS = 24 * 3600 * 1000
 
@@ -47,9 +46,8 @@ class Declared(Protocol):
 def server_configuration(*, listen: Sequence[str], connect: Sequence[str]) -> dict[str, Any]:
     """The server is its own router (`listen`), or joins one that runs already (`connect`), or both."""
     if listen:
-        # Datagrams that get through no more are to be noticed at the other end too, and soon.
-        lease_ms = LEASE_MS if any(len(locators(endpoint)) > 1 for endpoint in listen) else None
-        return _configuration("router", listen=listen, connect=connect, lease_ms=lease_ms)
+        # A link that is dead is to be noticed at the other end too, and soon.
+        return _configuration("router", listen=listen, connect=connect, lease_ms=LEASE_MS)
     return _configuration("client", listen=(), connect=connect)
 
 
@@ -59,9 +57,11 @@ def client_configuration(connect: Sequence[str], *, timeout: float, reconnect: b
     Where datagrams are wanted too (tcp+udp/...), it is content with the stream if they do not get through.
     `reconnect`: whether it comes back by itself after a cut. With datagrams it then numbers its keys anew, and
     datagrams that are on their way or come first are taken for messages of other keys; without datagrams all is well.
+    A session that does not is opened at once or not at all, whatever `timeout` says.
     """
     made = _configuration("client", listen=(), connect=connect, timeout=timeout, lease_ms=LEASE_MS)
     if not reconnect:
+        made["connect"]["timeout_ms"] = 0
         made["connect"]["retry"] |= {"period_init_ms": NEVER_MS, "period_max_ms": NEVER_MS}
     return made
 
@@ -102,16 +102,6 @@ def _configuration(
     return configuration
 
 
-def given_up_within(configuration: dict[str, Any], seconds: float) -> dict[str, Any]:
-    """The same, with every link given up so soon that all take `seconds`; each is tried for half a second at least."""
-    transport = configuration["transport"]
-    each = max(LEAST_OPEN_TIMEOUT_MS, min(OPEN_TIMEOUT_MS, int(1000 * seconds / LINKS)))
-    return {
-        **configuration,
-        "transport": {**transport, "unicast": {**transport["unicast"], "open_timeout": each}},
-    }
-
-
 def open_session(configuration: dict[str, Any]) -> zenoh.Session:
     """Open a session; raises ProtocolError, naming the endpoints, if that fails."""
     try:
@@ -129,6 +119,11 @@ def _why_not(configuration: dict[str, Any], told: str) -> str:
         reason = os.strerror(int(number[1])).lower() if number else told.partition(" at /")[0]
         hint = "; end the program that has it, or --listen elsewhere" if "in use" in reason else ""
         return f"cannot listen on {', '.join(as_written(listen))}: {reason}{hint}"
+    return nobody_answers(configuration)
+
+
+def nobody_answers(configuration: dict[str, Any]) -> str:
+    """What to tell a user who connects to where nobody answers."""
     connect = configuration.get("connect", {}).get("endpoints", [])
     where = ", ".join(name for endpoint in connect for name in as_written(_links(endpoint)))
     return (

@@ -8,7 +8,6 @@ from kuglice.errors import ProtocolError
 from kuglice.protocol import (
     check_endpoints,
     client_configuration,
-    given_up_within,
     host_and_port,
     open_session,
     server_configuration,
@@ -65,16 +64,3 @@ def test_what_is_no_endpoint_is_refused_before_anything_is_tried(endpoint, told)
 def test_an_endpoint_is_taken_apart():
     assert host_and_port("tcp/[::1]:7447") == ("::1", 7447)
     assert host_and_port("tcp+udp/kuglice.example:80") == ("kuglice.example", 80)
-
-
-def test_links_are_given_up_together_within_the_time_that_is_left():
-    configuration = client_configuration(["tcp+udp/127.0.0.1:1"], timeout=1.0)
-    longest = configuration["transport"]["unicast"]["open_timeout"]
-
-    def each(seconds: float) -> int:
-        return given_up_within(configuration, seconds)["transport"]["unicast"]["open_timeout"]
-
-    assert each(60.0) == longest
-    assert each(2.0) == 1000
-    assert each(-1.0) == each(0.0) == 500
-    assert configuration["transport"]["unicast"]["open_timeout"] == longest
