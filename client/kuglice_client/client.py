@@ -69,7 +69,7 @@ class Client:
             self.link.listen(self._keys, snapshots=settings.check_snapshots)
             if settings.name is not None:
                 self.link.show(settings.name, self._session)
-            self._enter(self._join(deadline))
+            self._enter(self._join(deadline), deadline)
         except BaseException:
             self.close()
             raise
@@ -169,7 +169,7 @@ class Client:
         who = None if self.settings.name is None else (self.settings.name, self._session)
         return join(self.link, self._keys, who, deadline=deadline, stop=self.stop)
 
-    def _enter(self, joined: Joined) -> None:
+    def _enter(self, joined: Joined, deadline: float) -> None:
         """Begin in a world that was just joined, for the first time or after a restart of the server."""
         about, settings = joined.about, self.settings
         self.step_seconds = step_seconds(joined.world)
@@ -196,12 +196,14 @@ class Client:
                 epoch=joined.epoch,
                 rate=about.rate,
             )
+        self.replica.enter(ignored=self._other_epochs, deadline=deadline, stop=self.stop)
         whom = "a spectator" if joined.number is None else f"client {joined.number}"
         log.info("joined world %s at tick %d as %s", about.world, joined.world.tick, whom)
 
     def _rejoin(self, epoch: int) -> None:
         """A message of another run of the server came: see which one runs now."""
-        joined, ours = self._join(time.monotonic() + self.settings.wait), self.replica.joined.epoch
+        deadline = time.monotonic() + self.settings.wait
+        joined, ours = self._join(deadline), self.replica.joined.epoch
         if len(self._other_epochs) >= KNOWN_EPOCHS:
             self._other_epochs.clear()
         if joined.epoch == ours:
@@ -212,7 +214,7 @@ class Client:
         self._other_epochs.add(ours)
         self.totals.keep(figures(self.replica, self.screen))
         self.totals.rejoins += 1
-        self._enter(joined)
+        self._enter(joined, deadline)
 
     def _seen(self) -> tuple[Ids, Floats]:
         """Ids and positions of the balls of the last frame."""

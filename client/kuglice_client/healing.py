@@ -44,7 +44,7 @@ class Healing:
         self.silences = 0
 
     def turn(self, now: float, *, silent: bool = False) -> bool:
-        """Hear what was answered, ask what is needed. Whether the confirmed world has something new to do.
+        """Hear what was answered, ask what is needed. Whether the confirmed world is another now: the server's.
 
         `silent`: nothing has come for so long that the stream may have stopped while the server goes on.
         """
@@ -104,7 +104,7 @@ class Healing:
             return False
         # As above: what the history does not reach back to can only be skipped.
         self._snapshot_needed = self._follower.gap is not None
-        return True
+        return False
 
     def _take(self, whole: Whole) -> bool:
         if self._follower.gap is not None and whole.tick > self._follower.world.tick:

@@ -13,7 +13,17 @@ from dataclasses import dataclass
 
 from kuglice import Model, Scene, World, _core
 from kuglice.errors import JoinError, KugliceError, ProtocolError
-from kuglice.protocol import ANY_EPOCH, ANY_STATUS, About, Keys, SnapshotRequest, Status, decode
+from kuglice.protocol import (
+    ANY_EPOCH,
+    ANY_STATUS,
+    About,
+    ArrivalRequest,
+    Keys,
+    SnapshotRequest,
+    Status,
+    decode,
+)
+from kuglice_client.ask import Asked
 from kuglice_client.link import Link
 
 __all__ = ["Joined", "find_world", "join", "patience"]
@@ -45,6 +55,8 @@ class Joined:
     number: int | None
     sequence: int
     round_trip: float
+    told_at: float
+    """When `about`, with the tick that it was told at, had come; in seconds of the monotonic clock."""
 
 
 def find_world(link: Link, *, deadline: float, stop: threading.Event) -> str:
@@ -104,21 +116,23 @@ def _attempt(
     asked_snapshot = link.ask(
         keys.history, SnapshotRequest(epoch=ANY_EPOCH, at=None), timeout=SNAPSHOT_SECONDS
     )
+    asked_number = None if who is None else _ask_number(link, keys, who, deadline=deadline)
     try:
         about = decode(asked_about.wait_whole(stop).data, About)
     except JoinError as error:
         raise _NotYetError(f"world {keys.world} at {link.endpoints}: {error}") from error
     except ProtocolError as error:
         raise JoinError(f"{keys.about}: {error}") from error
-    round_trip = time.monotonic() - asked_at
+    told_at = time.monotonic()
+    round_trip = told_at - asked_at
     if about.step_version != _core.STEP_VERSION:
         raise JoinError(
             f"step version {about.step_version} of the server (kuglice {about.version}): this client has "
             f"{_core.STEP_VERSION} and would compute other bits"
         )
     number, sequence = None, 0
-    if who is not None:
-        number, sequence = _number(link, keys, who, deadline=deadline, stop=stop)
+    if who is not None and asked_number is not None:
+        number, sequence = _number(link, keys, who, asked_number, deadline=deadline, stop=stop)
     try:
         snapshot = asked_snapshot.wait_whole(stop)
     except JoinError as error:
@@ -131,13 +145,14 @@ def _attempt(
         world = World.restore(scene, snapshot.data, model)
     except KugliceError as error:
         raise JoinError(f"world {about.world}: {error}") from error
-    return Joined(about.epoch, about, scene, model, world, number, sequence, round_trip)
+    return Joined(about.epoch, about, scene, model, world, number, sequence, round_trip, told_at)
 
 
 def _number(
     link: Link,
     keys: Keys,
     who: Who,
+    asked: Asked,
     *,
     deadline: float,
     stop: threading.Event,
@@ -145,7 +160,7 @@ def _number(
     name, session = who
     while True:
         try:
-            status = decode(link.ask(keys.status, None, timeout=patience(deadline)).wait(stop)[0], Status)
+            status = decode(asked.wait(stop)[0], Status)
         except (JoinError, ProtocolError) as error:
             raise _NotYetError(str(error)) from error
         for refusal in status.refusals:
@@ -158,6 +173,13 @@ def _number(
         if here is not None and here.away:
             why = "another session plays it, whose link is cut: the server still waits for that one"
         _pause(deadline, stop, why=f"client {name}: {why}")
+        asked = _ask_number(link, keys, who, deadline=deadline)
+
+
+def _ask_number(link: Link, keys: Keys, who: Who, *, deadline: float) -> Asked:
+    name, session = who
+    request = ArrivalRequest(epoch=ANY_EPOCH, name=name, session=session)
+    return link.ask(keys.status, request, timeout=patience(deadline))
 
 
 def patience(deadline: float) -> float:

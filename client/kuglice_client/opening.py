@@ -1,7 +1,7 @@
-"""Opening a session: several tries, each begun before the one before it has failed, and the first that is open is taken.
+"""Opening a session: several tries, each begun before the one before it has failed; the first that is open is taken.
 
-What opens a link is lost like anything else, and is sent again only after a second (TCP) or not at all (datagrams): on a
-bad network one try in ten takes a second longer than the others, and when a link comes back after a cut a try of just
+What opens a link is lost like anything else, and is sent again only after a second (TCP) or not at all (datagrams): on
+a bad network one try in ten takes a second longer than the others. When a link comes back after a cut, a try of just
 then is the quickest.
 """
 

@@ -1,8 +1,8 @@
 """When a link is opened anew: after a cut.
 
-Zenoh would come back by itself, but later than one who tries again and again at short intervals (opening.py), without the
-datagrams that were beside the stream, and with keys numbered anew, by which messages that come over two links are mixed
-up: ticks were not heard again, inputs were heard as ticks.
+Zenoh would come back by itself, but later than one who tries again and again at short intervals (opening.py), without
+the datagrams that were beside the stream, and with keys numbered anew, by which messages that come over two links are
+mixed up: ticks were not heard again, inputs were heard as ticks.
 """
 
 from __future__ import annotations

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import math
+import threading
 import time
 from collections.abc import Container
 
@@ -30,6 +31,11 @@ log = logging.getLogger(__name__)
 PREDICTED_SECONDS = 1.5
 LAG_SECONDS = 2.0
 CONFIRM_SECONDS = 0.05
+ENTER_SECONDS = 5.0
+"""Who has not come to the present by then is shown what there is."""
+ENTER_SLACK_SECONDS = 0.25
+"""By which the stream may be late for once, and is the present all the same."""
+ENTER_IDLE_SECONDS = 0.001
 PREDICT_SECONDS = 0.012
 """Of one turn: running forward again that takes longer goes on in the next, and frames come in between."""
 
@@ -37,7 +43,7 @@ PREDICT_SECONDS = 0.012
 class Replica:
     """Made by joining one run of the server, thrown away when another one is joined.
 
-    A turn is: `receive`, `heal`, `advance`. `player` is None for a spectator.
+    `enter` brings it to the present; then a turn is: `receive`, `heal`, `advance`. `player` is None for a spectator.
     """
 
     def __init__(
@@ -58,6 +64,7 @@ class Replica:
         self._screen = screen
         self._study = study
         self._lagging = False
+        self._entered = False
         self.stream = Stream(link, joined, lose=settings.lose, totals=totals, now=now)
         self.follower = Follower(joined.world)
         self.reconciler = Reconciler(
@@ -73,7 +80,7 @@ class Replica:
         self.clock = Clock(
             rate=about.rate,
             tick=about.tick,
-            now=now,
+            now=joined.told_at,
             round_trip=joined.round_trip,
             input_delay=settings.input_delay,
             in_order="udp" not in link.kinds,
@@ -92,6 +99,28 @@ class Replica:
                 study=study,
             )
         )
+
+    def enter(self, *, ignored: Container[int], deadline: float, stop: threading.Event) -> None:
+        """Catch up with what was told while the state was on its way, and predict up to now.
+
+        Nobody sees that or acts meanwhile: it would be seconds of the past, played too fast. Ends at the `deadline`,
+        when `stop` is set, or when another run of the server says something, in any case.
+        """
+        until = min(deadline, time.monotonic() + ENTER_SECONDS)
+        while (now := time.monotonic()) < until and self.receive(now, ignored=ignored) is None:
+            self.heal(now)
+            self.advance(now)
+            present = self.follower.behind == 0 and self.follower.world.tick >= self._told_by(now)
+            if present and self.prediction.world.tick >= math.floor(self.clock.target(time.monotonic())):
+                break
+            if stop.wait(ENTER_IDLE_SECONDS):
+                break
+        self._entered = True
+
+    def _told_by(self, now: float) -> float:
+        """The tick that the stream should have come to by `now`, going by when the server told which tick it was."""
+        about = self.joined.about
+        return about.tick + (now - self.joined.told_at - ENTER_SLACK_SECONDS) * about.rate - 1.0
 
     def receive(self, now: float, *, ignored: Container[int]) -> int | None:
         """Take in what came. The epoch of another run of the server that says something, and is not `ignored`."""
@@ -177,7 +206,7 @@ class Replica:
         if prediction.reconcile(confirmed, in_time) and self._study is not None:
             self._study.rollback(now, confirmed.tick, reached)
         self._switch(now)
-        if tick > prediction.shown[1].tick and self.player is not None:
+        if tick > prediction.shown[1].tick and self.player is not None and self._entered:
             self.player.let_bot_act(now)
         while step and prediction.world.tick < tick and in_time() and prediction.may_step(confirmed):
             prediction.step()

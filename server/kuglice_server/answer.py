@@ -12,6 +12,7 @@ from kuglice.errors import KugliceError, ProtocolError
 from kuglice.protocol import (
     ANY_EPOCH,
     About,
+    ArrivalRequest,
     Declared,
     History,
     Keys,
@@ -36,7 +37,8 @@ log = logging.getLogger(__name__)
 class Answers:
     """Queryables of one world.
 
-    `about`, `view` and `status` are called for fresh messages and must be safe to call from any thread.
+    `about`, `view` and `status` are called for fresh messages, `settle` to wait, for a moment, until it is clear
+    whether a name and session play; all must be safe to call from any thread.
     """
 
     def __init__(
@@ -48,12 +50,14 @@ class Answers:
         about: Callable[[], About],
         view: Callable[[], ViewAbout],
         status: Callable[[], Status],
+        settle: Callable[[str, str], None],
         history: KeptHistory,
     ) -> None:
         self._epoch = epoch
         self._about = about
         self._view = view
         self._status = status
+        self._settle = settle
         self._history = history
         handlers: list[tuple[str, Callable[[zenoh.Query], Iterator[Message]]]] = [
             (keys.about, self._answer_about),
@@ -94,6 +98,9 @@ class Answers:
         yield self._view()
 
     def _answer_status(self, query: zenoh.Query) -> Iterator[Message]:
+        if query.payload is not None:
+            arrival = decode(query.payload.to_bytes(), ArrivalRequest)
+            self._settle(arrival.name, arrival.session)
         yield self._status()
 
     def _answer_history(self, query: zenoh.Query) -> Iterator[Message]:
@@ -112,8 +119,11 @@ class Answers:
             stretch = History.of(self._epoch, ticks, hash_every=about.hash_every)
             yield from split(compress(encode(stretch)), of="history", epoch=self._epoch, tick=ticks[0].tick)
         elif isinstance(request, SnapshotRequest):
-            kept = self._history.snapshot(request.at)
+            at = request.at
+            kept = self._history.fresh_snapshot() if at is None else self._history.snapshot(at)
             if kept is None:
-                raise ProtocolError(f"snapshot at or before {request.at}: not kept")
+                raise ProtocolError(
+                    "snapshot: none yet" if at is None else f"snapshot at or before {at}: not kept"
+                )
             data = compress(kept.data, numbers=True)
             yield from split(data, of="snapshot", epoch=self._epoch, tick=kept.tick)

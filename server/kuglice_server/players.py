@@ -96,6 +96,10 @@ class Players:
         player = self._by_name.get(name)
         return player if player is not None and player.present and player.session == session else None
 
+    def settled(self, name: str, session: str) -> bool:
+        """Whether it is clear if this session plays `name`: it does, or it was refused."""
+        return self.find(name, session) is not None or (name, session) in self._refused
+
     def numbered(self, number: int) -> Player | None:
         """The player of that number, here or not."""
         return next((player for player in self._by_name.values() if player.number == number), None)

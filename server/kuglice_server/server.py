@@ -43,6 +43,8 @@ log = logging.getLogger(__name__)
 HISTORY_SECONDS = 60
 EARLIEST_SECONDS = 2
 WAITING_MESSAGES = 4096
+SETTLE_SECONDS = 0.1
+"""How long one who has just shown itself is waited for; one who is not let in by then asks again."""
 HASHED_BALLS = 100_000
 """Up to so many balls every state's hash is told."""
 
@@ -114,6 +116,7 @@ class Server:
         )
         self._now = self.world.tick
         self._balls = self.world.count
+        self._ticked = threading.Condition()
         answers = Answers(
             self._session,
             keys,
@@ -121,6 +124,7 @@ class Server:
             about=self.about,
             view=self.view_about,
             status=self.status,
+            settle=self._settle,
             history=self._history,
         )
         self._declared: tuple[Declared, ...] = (inputs, tokens, *answers.declared, *publisher.declared)
@@ -147,6 +151,8 @@ class Server:
             self._loop.tick()
             self._regions.turn(self.world)
             self._now, self._balls = self.world.tick, self.world.count
+            with self._ticked:
+                self._ticked.notify_all()
             ticks = None if ticks is None else ticks - 1
             if each_tick is not None:
                 each_tick(self)
@@ -160,6 +166,16 @@ class Server:
     def _deserted(self) -> bool:
         with self._lock:
             return self._players.deserted
+
+    def _settle(self, name: str, session: str) -> None:
+        """Wait for the tick that lets the session in as `name`, or refuses it; only for a moment."""
+
+        def settled() -> bool:
+            with self._lock:
+                return self._players.settled(name, session)
+
+        with self._ticked:
+            self._ticked.wait_for(settled, SETTLE_SECONDS)
 
     def about(self) -> About:
         """What a client must know to join. Safe from any thread."""

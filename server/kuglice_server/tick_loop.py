@@ -74,10 +74,7 @@ class TickLoop:
             authored = self._players.authored(world)
             inputs = self._with_room(authored, self._intake.due(number))
             heard = self._players.heard
-        if number % self._snapshot_every == 0:
-            data = world.snapshot()
-            self._history.add_snapshot(KeptSnapshot(number, data))
-            self._guarded(partial(self._publisher.snapshot, number, data))
+        self._keep(number)
         records = self._step(authored, inputs)
         with self._lock:
             acks = self._intake.acks(number, repeat=REPEATED_ACKS)
@@ -87,6 +84,15 @@ class TickLoop:
         self._guarded(partial(self._publisher.tick, self._history.recent(MAX_TOLD_TICKS), acks, heard))
         if self._record is not None:
             self._record.add(entry)
+
+    def _keep(self, number: int) -> None:
+        asked_for = self._history.wants_fresh()
+        if number % self._snapshot_every == 0:
+            data = self._world.snapshot()
+            self._history.add_snapshot(KeptSnapshot(number, data))
+            self._guarded(partial(self._publisher.snapshot, number, data))
+        elif asked_for:
+            self._history.add_fresh(KeptSnapshot(number, self._world.snapshot()))
 
     def _note_tokens(self) -> None:
         while (sample := self._tokens.try_recv()) is not None:

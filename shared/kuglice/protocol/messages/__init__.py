@@ -9,7 +9,7 @@ from kuglice.protocol.messages.holding import Holding
 from kuglice.protocol.messages.part import PART_BYTES, Part
 from kuglice.protocol.messages.refusal import Refusal
 from kuglice.protocol.messages.region import MAX_REGION_BALLS, Region
-from kuglice.protocol.messages.request import ANY_EPOCH, SnapshotRequest, TickRange
+from kuglice.protocol.messages.request import ANY_EPOCH, ArrivalRequest, SnapshotRequest, TickRange
 from kuglice.protocol.messages.status import ClientStatus, SessionRefusal, Status
 from kuglice.protocol.messages.stretch import Stretch, StretchedTick
 from kuglice.protocol.messages.tick import MAX_TOLD_TICKS, Tick
@@ -25,6 +25,7 @@ __all__ = [
     "PROTOCOL_VERSION",
     "About",
     "Ack",
+    "ArrivalRequest",
     "ClientInputs",
     "ClientStatus",
     "History",

@@ -1,17 +1,17 @@
-"""What is asked on the history key.
+"""What is asked on the keys `history` and `status`.
 
 The epoch is the one the asker lives in: a restarted server refuses it.
 """
 
 from __future__ import annotations
 
-from typing import ClassVar, Self
+from typing import Annotated, ClassVar, Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from kuglice.protocol.messages.envelope import Message, TickNumber
 
-__all__ = ["ANY_EPOCH", "SnapshotRequest", "TickRange"]
+__all__ = ["ANY_EPOCH", "ArrivalRequest", "SnapshotRequest", "TickRange"]
 
 ANY_EPOCH = 0
 
@@ -33,7 +33,7 @@ class TickRange(Message):
 
 
 class SnapshotRequest(Message):
-    """Asks for the newest snapshot whose tick is `at` or before (None: the newest).
+    """Asks for the newest snapshot whose tick is `at` or before (None: one of now).
 
     One who joins asks before it knows the epoch: ANY_EPOCH is answered by whichever run this is.
     """
@@ -42,3 +42,16 @@ class SnapshotRequest(Message):
     max_bytes: ClassVar[int] = 512
 
     at: TickNumber | None
+
+
+class ArrivalRequest(Message):
+    """Asks how it goes once it is clear whether this `session` plays `name`: it has just shown itself.
+
+    The epoch is not known yet: ANY_EPOCH.
+    """
+
+    kind: ClassVar[str] = "arrival?"
+    max_bytes: ClassVar[int] = 1024
+
+    name: Annotated[str, Field(max_length=256)]
+    session: Annotated[str, Field(max_length=256)]

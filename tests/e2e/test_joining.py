@@ -1,0 +1,68 @@
+"""Regression: who joined a large world over a long way saw its last seconds first, played too fast.
+
+The state by which a client joins was up to a second old, was as long on its way again, and the ticks since were asked
+for afterwards. All of it was caught up with on screen, which counted as a correction of 0.2 radii per ball and frame of
+the whole session. Now the state is one of the moment at which it is asked for, and the first frame shows the present.
+"""
+
+from __future__ import annotations
+
+from e2e.processes import until
+from e2e.verdict import assert_all_equal
+from kuglice import scenes
+from kuglice.lab.network import Conditions, ProxyLink
+from kuglice.replay import Replay
+from kuglice.study import Study
+from kuglice.study.format import Acted, DrawnFrame
+from kuglice_client import Client, ClientSettings
+
+SELDOM = 100_000
+"""Ticks from one snapshot to the next: the only one that is made unasked is that of the start."""
+
+
+def test_the_state_is_made_for_who_asks_and_acts_from_the_present_on(start, scene, endpoint, tmp_path):
+    record = tmp_path / "run.kuglice"
+    server = start(
+        "server", scene, "--listen", endpoint, "--snapshot-every", SELDOM, "--record", record, "--json"
+    )
+    until(record.exists, what="a recording")
+    until(lambda: len(Replay.load(record)) > 100, what="a past to be left out")
+    settings = ClientSettings(connect=(endpoint,), name="ana", bot="chaser", study=tmp_path / "ana.study")
+    with Client(settings) as client:
+        client.run(seconds=1.0)
+        summary = client.summary()
+    server.signal(2)
+    server.figures()
+    study = Study.load(tmp_path / "ana.study")
+    first = next(event for event in study.events if isinstance(event, DrawnFrame))
+    assert study.joined.tick > 100
+    assert all(event.tick >= first.tick - 1 for event in study.events if isinstance(event, Acted))
+    assert summary["ticks_healed_by_history"] == 0
+    assert_all_equal(record, [summary])
+
+
+def test_what_happened_while_the_state_was_on_its_way_is_not_shown(start, tmp_path):
+    scenes.gas(n=400).save(tmp_path / "gas.toml")
+    with ProxyLink(Conditions(round_trip=0.1, bandwidth=20_000.0)) as link:
+        record = tmp_path / "run.kuglice"
+        server = start(
+            "server",
+            tmp_path / "gas.toml",
+            "--listen",
+            f"tcp/{link.server_address}",
+            "--record",
+            record,
+            "--json",
+        )
+        settings = ClientSettings(
+            connect=(f"tcp/{link.client_address}",), study=tmp_path / "eye.study", wait=20.0
+        )
+        with Client(settings) as client:
+            client.run(seconds=0.5)
+            summary = client.summary()
+        server.signal(2)
+        server.figures()
+    study = Study.load(tmp_path / "eye.study")
+    first = next(event for event in study.events if isinstance(event, DrawnFrame))
+    assert first.confirmed - study.joined.tick > 20, "as many as its 11 kB took to come"
+    assert_all_equal(record, [summary])
