@@ -55,6 +55,8 @@ class Joined:
     number: int | None
     sequence: int
     round_trip: float
+    state_seconds: float
+    """For which the state was on its way."""
     told_at: float
     """When `about`, with the tick that it was told at, had come; in seconds of the monotonic clock."""
 
@@ -137,6 +139,7 @@ def _attempt(
         snapshot = asked_snapshot.wait_whole(stop)
     except JoinError as error:
         raise _NotYetError(str(error)) from error
+    state_seconds = time.monotonic() - asked_at
     if snapshot.epoch != about.epoch:
         raise _NotYetError(f"epoch {about.epoch} is over, {snapshot.epoch} has begun")
     try:
@@ -145,7 +148,9 @@ def _attempt(
         world = World.restore(scene, snapshot.data, model)
     except KugliceError as error:
         raise JoinError(f"world {about.world}: {error}") from error
-    return Joined(about.epoch, about, scene, model, world, number, sequence, round_trip, told_at)
+    return Joined(
+        about.epoch, about, scene, model, world, number, sequence, round_trip, state_seconds, told_at
+    )
 
 
 def _number(

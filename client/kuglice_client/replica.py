@@ -31,6 +31,8 @@ log = logging.getLogger(__name__)
 PREDICTED_SECONDS = 1.5
 LAG_SECONDS = 2.0
 CONFIRM_SECONDS = 0.05
+STEP_WEIGHT = 0.05
+"""Of a turn, in the mean of what a confirmed tick costs."""
 ENTER_SECONDS = 5.0
 """Who has not come to the present by then is shown what there is."""
 ENTER_SLACK_SECONDS = 0.25
@@ -65,6 +67,7 @@ class Replica:
         self._study = study
         self._lagging = False
         self._entered = False
+        self._step_seconds = 0.0
         self.stream = Stream(link, joined, lose=settings.lose, totals=totals, now=now)
         self.follower = Follower(joined.world)
         self.reconciler = Reconciler(
@@ -74,7 +77,12 @@ class Replica:
             step_version=about.step_version,
         )
         self.healing = Healing(
-            link, keys, epoch=joined.epoch, follower=self.follower, reconciler=self.reconciler
+            link,
+            keys,
+            epoch=joined.epoch,
+            follower=self.follower,
+            reconciler=self.reconciler,
+            state_seconds=joined.state_seconds,
         )
         self.prediction = Prediction(joined.world, limit=max(4, round(PREDICTED_SECONDS * about.rate)))
         self.clock = Clock(
@@ -137,7 +145,8 @@ class Replica:
     def heal(self, now: float) -> None:
         """Ask for what is missing, and take in what was answered."""
         silent = self.stream.silent(now)
-        if self.healing.turn(now, silent=silent):
+        missing = max(self.follower.behind, (now - self.stream.heard_at) * self.joined.about.rate)
+        if self.healing.turn(now, missing=missing, step_seconds=self._step_seconds, silent=silent):
             self._replaced(now)
         if self.healing.brought is not None:
             self._brought(self.healing.brought, now, silent=silent)
@@ -175,6 +184,7 @@ class Replica:
     def _confirm(self, now: float) -> bool:
         """Step through what is known, or, if that is much, through some of it. Whether that was all."""
         done = True
+        before, begun = self.follower.world.tick, time.monotonic()
         for step in self.follower.advance():
             self.prediction.confirm(step.entry)
             self.reconciler.confirmed(step)
@@ -186,6 +196,10 @@ class Replica:
             if time.monotonic() - now > CONFIRM_SECONDS:
                 done = False
                 break
+        stepped = self.follower.world.tick - before
+        if stepped > 0:
+            spent = (time.monotonic() - begun) / stepped
+            self._step_seconds += STEP_WEIGHT * (spent - self._step_seconds)
         if self.follower.behind == 0:
             self._screen.feel.caught_up(time.monotonic())
         self._note_lag()
