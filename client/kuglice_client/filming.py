@@ -17,9 +17,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from kuglice import Scene
-from kuglice.errors import KugliceError, PictureError
+from kuglice.errors import KugliceError
 from kuglice.picture import encode_png
-from kuglice_client.render import OUTPUTS, Renderer, check_look, open_output
+from kuglice_client.render import Renderer, check_look, check_output, open_output
 from kuglice_client.render.moment import Moment
 
 __all__ = ["Film", "FilmSettings"]
@@ -55,9 +55,7 @@ class FilmSettings:
     reference: float | None = None
 
     def __post_init__(self) -> None:
-        if self.path.suffix.lower() not in OUTPUTS:
-            kinds = ", ".join(suffix for suffix in OUTPUTS if suffix)
-            raise PictureError(f"film {self.path}: must be a directory, or its suffix one of {kinds}")
+        check_output(self.path, size=self.size, fps=self.fps)
         check_look(style=self.style, overlays=self.overlays, trails=self.trails)
 
 

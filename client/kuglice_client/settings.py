@@ -42,6 +42,8 @@ class ClientSettings:
 
     def __post_init__(self) -> None:
         check_endpoints(self.connect)
+        if self.world is not None:
+            check_name("world", self.world)
         if self.name is not None:
             check_name("client", self.name)
         if self.bot is not None and self.bot not in BOTS:

@@ -80,7 +80,14 @@ def test_what_a_client_cannot_draw_is_refused_before_it_connects():
     # Nobody listens there: whoever gets as far as to connect says so.
     nobody = ("client", "--connect", "tcp/127.0.0.1:9", "--wait", "0")
     for wrong, told in [
-        (("--render", "x.foo"), "film x.foo: must be a directory, or its suffix one of .mp4, .webm"),
+        (("--render", "x.foo"), "output x.foo: must be a directory, or its suffix one of .mp4, .webm"),
+        (
+            ("--render", "x.mp4", "--size", "31x20"),
+            "output x.mp4: a film needs even numbers of pixels, got 31x20",
+        ),
+        (("--size", "wide"), "size 'wide': must be two whole numbers of pixels like 1280x720"),
+        (("--world", "a/b"), "world 'a/b': must be 1 to 32 letters"),
+        (("--connect", "7447"), "endpoint '7447': must look like tcp+udp/127.0.0.1:7447"),
         (("--style", "nope"), "style 'nope': there is none of that name, only discs"),
         (("--overlay", "nope", "--render", "x.gif"), "overlay 'nope': there is none of that name"),
     ]:

@@ -32,6 +32,7 @@ from kuglice_client.cli.options import (
     write_summary,
 )
 from kuglice_client.client import Client
+from kuglice_client.render import parse_size
 from kuglice_client.settings import ClientSettings
 
 if TYPE_CHECKING:
@@ -76,7 +77,8 @@ def client(
     ] = None,
     trails: Annotated[float, typer.Option(help="Seconds after which a trail has faded, 0 for none.")] = 0.0,
     still_every: Annotated[
-        float, typer.Option(help="Seconds between PNG frames beside the film, 0 for none.")
+        float,
+        typer.Option(min=0.0, max=3600.0, help="Seconds between PNG frames beside the film, 0 for none."),
     ] = 0.0,
     lose: Annotated[
         float, typer.Option(min=0.0, max=0.99, help="Share of tick messages to throw away, to see them heal.")
@@ -128,7 +130,7 @@ def client(
         check_snapshots=check_snapshots,
         desync_reports=desync_reports,
     )
-    look = _Look(fps, _pixels(size), style, tuple(overlay or ("tick",)), trails, still_every)
+    look = _Look(fps, parse_size(size), style, tuple(overlay or ("tick",)), trails, still_every)
     film_settings = _film_settings(render, look)
     film = None
     summary: dict[str, Any] = {}
@@ -171,13 +173,6 @@ class _Look(NamedTuple):
     overlays: tuple[str, ...]
     trails: float
     still_every: float
-
-
-def _pixels(size: str) -> tuple[int, int]:
-    width, _, height = size.partition("x")
-    if not (width.isdecimal() and height.isdecimal()):
-        raise typer.BadParameter(f"size {size!r}: must look like 1280x720")
-    return int(width), int(height)
 
 
 def _film_settings(path: Path | None, look: _Look) -> FilmSettings | None:

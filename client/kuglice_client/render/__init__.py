@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from kuglice_client.render.film import film
 from kuglice_client.render.moment import HashState, Moment, between
-from kuglice_client.render.outputs import OUTPUTS, Output, open_output
+from kuglice_client.render.outputs import OUTPUTS, Output, check_output, open_output
 from kuglice_client.render.overlays import OVERLAYS
 from kuglice_client.render.renderer import Renderer, check_look
 from kuglice_client.render.size import parse_size
@@ -35,6 +35,7 @@ __all__ = [
     "Renderer",
     "between",
     "check_look",
+    "check_output",
     "film",
     "open_output",
     "parse_size",

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from kuglice.errors import ProtocolError
-from kuglice.protocol import DEFAULT_ENDPOINT, Rectangle, check_endpoints
+from kuglice.protocol import DEFAULT_ENDPOINT, Rectangle, check_endpoints, check_name
 
 __all__ = ["ViewSettings", "check_rectangle", "parse_rectangle"]
 
@@ -32,6 +32,8 @@ class ViewSettings:
 
     def __post_init__(self) -> None:
         check_endpoints(self.connect)
+        if self.world is not None:
+            check_name("world", self.world)
         check_rectangle(self.rectangle)
         if self.margin is not None and not 0 <= self.margin < math.inf:
             raise ProtocolError(f"margin {self.margin}: must be at least 0 and finite")

@@ -12,7 +12,7 @@ from kuglice_client.render.outputs.output import Encoder, Output
 from kuglice_client.render.outputs.png import PictureFolder, open_png
 from kuglice_client.render.outputs.video import Mp4, WebM
 
-__all__ = ["OUTPUTS", "Encoder", "Output", "open_output"]
+__all__ = ["OUTPUTS", "Encoder", "Output", "check_output", "open_output"]
 
 OUTPUTS: dict[str, Callable[[Path, tuple[int, int], float], Encoder]] = {
     ".mp4": Mp4,
@@ -21,6 +21,8 @@ OUTPUTS: dict[str, Callable[[Path, tuple[int, int], float], Encoder]] = {
     ".png": open_png,
     "": PictureFolder,
 }
+FILMS = (".mp4", ".webm")
+"""Colour is stored for two by two pixels."""
 
 
 def open_output(path: str | PathLike[str], *, size: tuple[int, int], fps: float, depth: int = 8) -> Output:
@@ -33,15 +35,23 @@ def open_output(path: str | PathLike[str], *, size: tuple[int, int], fps: float,
     `render`.
     """
     target = Path(path)
-    kind = OUTPUTS.get(target.suffix.lower())
-    if kind is None:
-        kinds = ", ".join(suffix for suffix in OUTPUTS if suffix)
-        raise PictureError(f"output {target}: must be a directory, or its suffix one of {kinds}")
-    if not 0 < fps <= 1000:
-        raise PictureError(f"output {target}: {fps} frames per second, must be above 0 and at most 1000")
+    check_output(target, size=size, fps=fps)
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
-        encoder = kind(target, size, fps)
+        encoder = OUTPUTS[target.suffix.lower()](target, size, fps)
     except OSError as error:
         raise PictureError(f"output {target}: cannot be written: {error.strerror or error}") from error
     return Output(target, size, encoder, depth)
+
+
+def check_output(path: Path, *, size: tuple[int, int], fps: float) -> None:
+    """Raises PictureError for what `open_output` would not take, and touches nothing."""
+    kind = path.suffix.lower()
+    if kind not in OUTPUTS:
+        kinds = ", ".join(suffix for suffix in OUTPUTS if suffix)
+        raise PictureError(f"output {path}: must be a directory, or its suffix one of {kinds}")
+    if not 0 < fps <= 1000:
+        raise PictureError(f"output {path}: {fps} frames per second, must be above 0 and at most 1000")
+    width, height = size
+    if kind in FILMS and (width % 2 or height % 2):
+        raise PictureError(f"output {path}: a film needs even numbers of pixels, got {width}x{height}")

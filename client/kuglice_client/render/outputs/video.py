@@ -9,7 +9,6 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from kuglice.errors import PictureError
 from kuglice.extras import extra
 
 __all__ = ["Mp4", "WebM"]
@@ -22,7 +21,7 @@ LIMITED = 1
 
 
 class Video:
-    """A film by one codec. Raises PictureError for odd sizes: colour is stored for two by two pixels."""
+    """A film by one codec; both sides of `size` are even."""
 
     codec: ClassVar[str]
     options: ClassVar[dict[str, str]]
@@ -31,9 +30,6 @@ class Video:
     def __init__(self, path: Path, size: tuple[int, int], fps: float) -> None:
         with extra("render"):
             import av  # noqa: PLC0415 - an extra
-        width, height = size
-        if width % 2 or height % 2:
-            raise PictureError(f"output {path}: a film needs even numbers of pixels, got {width}x{height}")
         rate = Fraction(fps).limit_denominator(1001)
         self._container = av.open(str(path), "w", options=self.container)
         stream = self._container.add_stream(self.codec, rate=rate, options=self.options)
