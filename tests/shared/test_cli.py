@@ -237,6 +237,15 @@ def test_what_cannot_be_is_told_before_anything_is_done(command, told, tmp_path,
     assert not list(tmp_path.iterdir())
 
 
+def test_a_place_that_cannot_be_written_is_one_line_and_exit_code_2(tmp_path):
+    taken = tmp_path / "taken"
+    taken.write_text("a file, and no directory")
+    shown = kuglice("bench", "--case", "each tick", "--repeats", "1", "--out", str(taken))
+    assert shown.returncode == 2
+    assert f"kuglice: {taken}: File exists\n" in shown.stderr
+    assert "Traceback" not in shown.stderr
+
+
 def test_digits_are_grouped_in_counts_and_not_in_names(capsys):
     print_figures("", {"server": {"epoch": 1763787695123456789, "ticks": 12345}}, as_json=False)
     shown = capsys.readouterr().out

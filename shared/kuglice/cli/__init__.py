@@ -27,5 +27,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except KugliceError as error:
         print(f"kuglice: {error}", file=sys.stderr)
         raise SystemExit(REFUSED) from None
+    except OSError as error:
+        # A file that cannot be read or written, wherever it was named; anything else is a fault of ours.
+        if error.filename is None:
+            raise
+        print(f"kuglice: {error.filename}: {error.strerror}", file=sys.stderr)
+        raise SystemExit(REFUSED) from None
     except KeyboardInterrupt:
         raise SystemExit(INTERRUPTED) from None

@@ -42,7 +42,9 @@ def draw_scale(pixels: Pixels, stage: Stage, moment: Moment) -> None:
     pixels_per_metre = stage.camera.scale * (box[2] - box[0]) / (right - left)
     metres = round_length(SHARE * (right - left))
     line = metres * pixels_per_metre
-    words = [(f"{metres:g} m", TEXT), (f"x {left:.6g} to {right:.6g}, y {bottom:.6g} to {top:.6g}", FAINT)]
+    decimals = max(0, 1 - math.floor(math.log10(metres)))
+    x0, x1, y0, y1 = (f"{round(side, decimals):.12g}" for side in (left, right, bottom, top))
+    words = [(f"{metres:g} m", TEXT), (f"x {x0} to {x1}, y {y0} to {y1}", FAINT)]
     gap, thick = 1.1 * font.size, 2.0 * font.size
     window = stage.camera.window()
     x, y = window[0] + 0.5 * font.size + thick / 2, window[3] - 0.5 * font.size - thick / 2
