@@ -8,8 +8,10 @@ The tick only finds out who looks, and packs: encoding and putting go on in a th
 many views takes longer than a tick may wait. If that is not done with the last round when the next is due, the next is
 left out: the one after it is newer.
 
-They go over the stream, and are dropped where it cannot take them. All that is due at once goes out in large batches,
-which costs a fifteenth of sending each by itself; as a datagram such a batch would be lost with any of its packets.
+They go over the stream, and are dropped where it cannot take them. All that is due at once goes out in large batches;
+as a datagram such a batch would be lost with any of its packets. Each message as a datagram of its own was tried: at
+150 ms, 20 % jitter and 2 % loss a view glides over 0.012 radii instead of 0.018 on average, but 128 views over the
+stream then cost 29 % of a core instead of 15, and miss messages.
 """
 
 from __future__ import annotations
