@@ -8,9 +8,10 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any
 
 from kuglice import World
+from kuglice.closing import Closing
 from kuglice.errors import JoinError
 from kuglice.inputs import Input
 from kuglice.protocol import Keys
@@ -41,7 +42,7 @@ KNOWN_EPOCHS = 64
 SESSION_BYTES = 8
 
 
-class Client:
+class Client(Closing):
     """Connects and joins when made; `run` plays until told to stop. A context manager. Raises JoinError.
 
     Its link, screen and totals last; its `replica` is of one run of the server.
@@ -158,12 +159,6 @@ class Client:
         if self._study is not None:
             self._study.close()
         return self.link.close(timeout, linger=self._linger)
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
 
     def _join(self, deadline: float) -> Joined:
         who = None if self.settings.name is None else (self.settings.name, self._session)

@@ -8,11 +8,12 @@ import time
 from collections import Counter
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, Self
+from typing import Any
 
 import zenoh
 
 from kuglice import Balls, Scene, World, __version__, _core
+from kuglice.closing import Closing
 from kuglice.picture import reference_speed
 from kuglice.protocol import (
     About,
@@ -49,7 +50,7 @@ HASHED_BALLS = 100_000
 """Up to so many balls every state's hash is told."""
 
 
-class Server:
+class Server(Closing):
     """Serves `scene` from construction to `close()`; `run` makes its time pass. A context manager."""
 
     def __init__(self, scene: Scene, settings: ServerSettings) -> None:
@@ -233,9 +234,3 @@ class Server:
         if not closed:
             log.error("the network session did not close within %g s", timeout)
         return closed
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()

@@ -6,11 +6,12 @@ import logging
 import threading
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from kuglice.closing import Closing
 from kuglice.errors import ProtocolError
 from kuglice.protocol import Keys, Rectangle, ViewAbout
 from kuglice_client.correction import Correction
@@ -38,7 +39,7 @@ SILENCE_SECONDS = 2.0
 """Even of an empty region, and of players who do nothing, a server says once a second that it is so."""
 
 
-class View:
+class View(Closing):
     """Connects and subscribes when made; `run` looks until told to stop. A context manager. Raises JoinError.
 
     Its link, rectangle and figures last; its `replica` is of one run of the server.
@@ -114,12 +115,6 @@ class View:
     def close(self, timeout: float = 5.0) -> bool:
         """Leave. False if Zenoh did not finish within `timeout` seconds."""
         return self.link.close(timeout)
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
 
     def _enter(self, about: ViewAbout) -> None:
         """Begin, for the first time or after a restart of the server."""

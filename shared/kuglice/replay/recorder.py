@@ -6,10 +6,9 @@ import math
 from collections.abc import Iterable
 from os import PathLike
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 from kuglice import _core
+from kuglice.closing import Closing
 from kuglice.errors import LimitError, ReplayError
 from kuglice.inputs import Input, pack
 from kuglice.replay.format import MAGIC, End, Head, State, Tick
@@ -25,7 +24,7 @@ LEAST_TICKS = 10
 """Between two states of a small world."""
 
 
-class Recorder:
+class Recorder(Closing):
     """Appends each tick of a world to a file, which is whole after every tick.
 
     Hashes are written every `hash_every` ticks; whole states every `state_every` and at the end, which is
@@ -107,11 +106,3 @@ class Recorder:
             return self._state_every
         affordable = math.ceil(len(snapshot) * self._world.scene.tick_rate / STATE_BYTES)
         return max(affordable, LEAST_TICKS)
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from os import PathLike
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kuglice import _core
+from kuglice.closing import Closing
 from kuglice.errors import ReplayError
 from kuglice.inputs import Input, pack
 from kuglice.replay.framing import write_record
@@ -29,7 +28,7 @@ Floats = NDArray[np.float64]
 Ids = NDArray[np.uint64]
 
 
-class StudyRecorder:
+class StudyRecorder(Closing):
     """Appends what happens to a client to a file (format.py). An existing file is replaced. Raises ReplayError.
 
     Every time `at` is in seconds of one clock. Frames say where balls were drawn as often as `seen_bytes` per second
@@ -118,11 +117,3 @@ class StudyRecorder:
         if event.at - self._flushed >= FLUSH_SECONDS:
             self._flushed = event.at
             self._file.flush()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()

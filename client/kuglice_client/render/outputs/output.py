@@ -5,12 +5,12 @@ from __future__ import annotations
 import queue
 import threading
 from pathlib import Path
-from types import TracebackType
-from typing import Protocol, Self
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from kuglice.closing import Closing
 from kuglice.errors import PictureError
 
 __all__ = ["Encoder", "Output"]
@@ -28,7 +28,7 @@ class Encoder(Protocol):
         """Finish the file."""
 
 
-class Output:
+class Output(Closing):
     """A film or pictures being written. A context manager; leaving it finishes the file.
 
     What goes wrong in the thread is raised by the next `write` or by `close`, as PictureError.
@@ -105,11 +105,3 @@ class Output:
         """Keep `write` from waiting for ever, until `close`."""
         while self._queue.get() is not None:
             pass
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()

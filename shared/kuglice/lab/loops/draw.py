@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+
 import numpy as np
 from matplotlib.axes import Axes
 
@@ -36,15 +38,20 @@ def draw(rows: Rows) -> Figure:
     return figure
 
 
+def _curves(rows: Rows) -> Iterator[tuple[str, str, Sequence[float], Sequence[float]]]:
+    """Loop, colour, x and value of each loop that there are rows of."""
+    for loop, colour in COLOUR.items():
+        points = [(float(row["x"]), float(row["value"])) for row in where(rows, loop=loop)]
+        if points:
+            x, value = zip(*points, strict=True)
+            yield loop, colour, x, value
+
+
 def _spread(axes: Axes, rows: Rows) -> None:
     axes.set_title("Do results depend on the frame rate?")
     axes.set_yscale("log")
     labels = []
-    for loop, colour in COLOUR.items():
-        points = [(float(row["x"]), float(row["value"])) for row in where(rows, loop=loop)]
-        if not points:
-            continue
-        x, value = zip(*points, strict=True)
+    for loop, colour, x, value in _curves(rows):
         drawn = np.maximum(value, FLOOR)
         axes.plot(
             x, drawn, "o-", color=colour, markeredgecolor="white", markersize=5 if loop == "fixed" else 8
@@ -62,11 +69,7 @@ def _spread(axes: Axes, rows: Rows) -> None:
 def _steps(axes: Axes, rows: Rows, jitter: Rows) -> None:
     axes.set_title("How does it look at 144 frames per second?")
     labels = []
-    for loop, colour in COLOUR.items():
-        points = [(float(row["x"]), float(row["value"])) for row in where(rows, loop=loop)]
-        if not points:
-            continue
-        x, value = zip(*points, strict=True)
+    for loop, colour, x, value in _curves(rows):
         # A dot in a ring, where two loops are both right.
         size = 5 if loop == "interpolated" else 9
         axes.plot(x, value, "o-", color=colour, linewidth=1.2, markersize=size, markeredgecolor="white",

@@ -7,8 +7,9 @@ import select
 import subprocess
 import sys
 from collections.abc import Mapping
-from typing import Any, Self
+from typing import Any
 
+from kuglice.closing import Closing
 from kuglice.errors import NetworkError
 from kuglice.lab.network.conditions import Conditions
 from kuglice.lab.network.tun_device import why_impossible
@@ -23,7 +24,7 @@ END_SECONDS = 5.0
 TUNNEL_PORT = 7447
 
 
-class Conditioner:
+class Conditioner(Closing):
     """A process that conditions a link; a context manager. Its stdin is its life: it ends with us.
 
     `server_prefix` and `client_prefix` come before the commands that are to use the link; the server listens on
@@ -81,12 +82,6 @@ class Conditioner:
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
 
     def _order(self, name: str, value: object) -> dict[str, Any]:
         assert self._process.stdin is not None
