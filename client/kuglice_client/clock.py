@@ -23,6 +23,8 @@ REPEAT_TICKS = 1.0
 """From one copy of an input to the next: a lost message must be made up for in time."""
 RETRANSMISSION_TRIPS = 1.25
 """Round trips by which a lost segment comes later: RFC 8985 waits for a quarter of one before it sends it again."""
+FIRST_JITTER_TRIPS = 0.5
+"""Round trips that one may vary by, as long as nothing else is known: as RFC 6298 has it."""
 REPORTS = 256
 REPORT_SECONDS = 60.0
 ARRIVALS = 256
@@ -151,7 +153,8 @@ class Clock:
 
     def _guessed_lead(self) -> float:
         jitter = self._late(WORST_QUANTILE)
-        if self._in_order and len(self._origins) < ARRIVALS:
-            # Until the stream has had the time to show how long losses hold it up.
-            jitter = max(jitter, RETRANSMISSION_TRIPS * self.round_trip)
+        if len(self._origins) < ARRIVALS:
+            # Until the stream has had the time to show how much it varies, and how long losses hold it up.
+            trips = RETRANSMISSION_TRIPS if self._in_order else FIRST_JITTER_TRIPS
+            jitter = max(jitter, trips * self.round_trip)
         return SAFETY_TICKS + REPEAT_TICKS + (self.round_trip + jitter) * self._rate - self._input_delay

@@ -59,6 +59,7 @@ class Simulation:
         every: float = 4.0,
         input_delay: int = 0,
         server_lag: Callable[[int], float] = lambda _: 0.0,
+        first_trip: float | None = None,
     ) -> None:
         scene = small_arena()
         players = Players(scene, grace=300)
@@ -75,7 +76,8 @@ class Simulation:
         self._order = count()
         self._predicted = 0
         number = 1
-        self._first_trip = conditions.round_trip * (1 + conditions.jitter) + 0.002
+        longest = conditions.round_trip * (1 + conditions.jitter) + 0.002
+        self._first_trip = longest if first_trip is None else first_trip
         self.played = Played(
             Outbox(
                 epoch=EPOCH,
