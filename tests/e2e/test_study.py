@@ -27,7 +27,7 @@ def test_two_players_record_what_they_saw_and_it_was_the_servers_world(start, se
         assert any(frame.predicted_equal for frame in frames)
         told = played[study.joined.name]
         assert figures["rollbacks"] == told["rollbacks"]
-        assert figures["inputs answered"] == told["inputs_accepted"] + told["inputs_refused"]
+        assert figures["inputs_answered"] == told["inputs_accepted"] + told["inputs_refused"]
         assert len(own_screen_delays(study)) > 0
     assert min(other_screen_delays(ana, ben)) > 0
     assert min(other_screen_delays(ben, ana)) > 0

@@ -20,7 +20,7 @@ from kuglice.extras import require
 from kuglice.protocol import DEFAULT_ENDPOINT
 from kuglice_client.bots import BOTS
 from kuglice_client.cli.finishing import finished
-from kuglice_client.cli.groups import CLIENT, CLIENT_SILENT
+from kuglice_client.cli.groups import CLIENT
 from kuglice_client.cli.options import (
     AsJson,
     FilmRate,
@@ -157,7 +157,7 @@ def client(
     else:
         watching = settings.name is None
         shown = {name: value for name, value in summary.items() if not (watching and name in OF_PLAYERS)}
-        print_groups(title, shown, CLIENT, silent=CLIENT_SILENT)
+        print_groups(title, shown, CLIENT)
     if not summary["agreed"]:
         compared = summary["hashes_checked"] > 0
         STDERR.print("states differed from the server's" if compared else "nothing could be compared")

@@ -2,109 +2,71 @@
 
 from __future__ import annotations
 
-__all__ = ["CLIENT", "CLIENT_SILENT", "VIEW", "VIEW_SILENT"]
+from kuglice.cli.figures import Group
+
+__all__ = ["CLIENT", "VIEW"]
+
+FILM = Group(("film", "frames", "film_error"), troubles=("frames_left_out",))
 
 CLIENT = {
-    "session": ("name", "number", "world", "epoch", "links", "seconds", "joined_after_seconds", "rejoins"),
-    "state": (
-        "final_tick",
-        "final_hash",
-        "agreed",
-        "hashes_checked",
-        "hash_mismatches",
-        "snapshots_checked",
-        "snapshot_mismatches",
-        "snapshots_taken",
-        "snapshots_too_old",
+    "session": Group(
+        ("name", "number", "world", "epoch", "links", "seconds", "joined_after_seconds"),
+        troubles=("rejoins",),
     ),
-    "inputs": ("inputs_accepted", "inputs_refused", "inputs_late"),
-    "prediction": (
-        "lead_ticks",
-        "rollbacks",
-        "deepest_rollback",
-        "ticks_rerun",
-        "worst_correction_radii",
-        "step_milliseconds",
+    "state": Group(
+        ("final_tick", "final_hash", "agreed", "hashes_checked", "hash_mismatches"),
+        troubles=("snapshots_checked", "snapshot_mismatches", "snapshots_taken", "snapshots_too_old"),
     ),
-    "network": (
-        "bytes_per_second_received",
-        "bytes_per_second_ticks",
-        "bytes_per_second_snapshots",
-        "bytes_per_second_sent",
-        "bytes_joining",
-        "link_renewals",
-        "messages_missed",
-        "messages_thrown_away",
-        "malformed_messages",
-        "ticks_behind",
-        "ticks_healed_by_repeats",
-        "ticks_healed_by_history",
-        "ticks_unusable",
-        "gaps_skipped",
-        "silences_asked",
+    "inputs": Group(("inputs_accepted", "inputs_refused", "inputs_late")),
+    "prediction": Group(
+        (
+            "lead_ticks",
+            "rollbacks",
+            "deepest_rollback",
+            "ticks_rerun",
+            "worst_correction_radii",
+            "step_milliseconds",
+        )
     ),
-    "feel": ("feel",),
-    "film": ("film", "frames", "frames_left_out", "film_error"),
+    "network": Group(
+        ("bytes_per_second_received", "bytes_per_second_ticks", "bytes_per_second_sent", "bytes_joining"),
+        troubles=(
+            "bytes_per_second_snapshots",
+            "link_renewals",
+            "messages_missed",
+            "messages_thrown_away",
+            "malformed_messages",
+            "ticks_behind",
+            "ticks_healed_by_repeats",
+            "ticks_healed_by_history",
+            "ticks_unusable",
+            "gaps_skipped",
+            "silences_asked",
+        ),
+    ),
+    "feel": Group((), troubles=("feel",)),
+    "film": FILM,
 }
-CLIENT_SILENT = frozenset(
-    {
-        "rejoins",
-        "snapshots_checked",
-        "snapshots_taken",
-        "snapshots_too_old",
-        "snapshot_mismatches",
-        "bytes_per_second_snapshots",
-        "link_renewals",
-        "messages_missed",
-        "messages_thrown_away",
-        "malformed_messages",
-        "ticks_behind",
-        "ticks_healed_by_repeats",
-        "ticks_healed_by_history",
-        "ticks_unusable",
-        "gaps_skipped",
-        "silences_asked",
-        "feel",
-        "frames_left_out",
-    }
-)
 
 VIEW = {
-    "session": ("world", "epoch", "links", "seconds", "joined_after_seconds", "rejoins", "final_tick"),
-    "in sight": ("rectangle", "balls_in_sight", "balls_followed", "balls_of_the_world"),
-    "regions": ("regions_followed", "regions_by_pace", "regions_left_out"),
-    "network": (
-        "updates",
-        "bytes_per_update",
-        "bytes_per_ball_told",
-        "bytes_per_second_received",
-        "bytes_per_second_budget",
-        "bytes_joining",
-        "link_renewals",
-        "updates_too_old",
-        "malformed_messages",
+    "session": Group(
+        ("world", "epoch", "links", "seconds", "joined_after_seconds", "final_tick"), troubles=("rejoins",)
     ),
-    "prediction": (
-        "told_within_radii",
-        "prediction_error_radii",
-        "correction_radii",
-        "rewinds",
-        "ticks_rerun",
-        "jumps",
-        "unusable_ticks",
+    "in sight": Group(("rectangle", "balls_in_sight", "balls_followed", "balls_of_the_world")),
+    "regions": Group(("regions_followed", "regions_by_pace"), troubles=("regions_left_out",)),
+    "network": Group(
+        (
+            "updates",
+            "bytes_per_update",
+            "bytes_per_ball_told",
+            "bytes_per_second_received",
+            "bytes_joining",
+        ),
+        troubles=("bytes_per_second_budget", "link_renewals", "updates_too_old", "malformed_messages"),
     ),
-    "film": ("film", "frames", "frames_left_out", "film_error"),
+    "prediction": Group(
+        ("told_within_radii", "prediction_error_radii", "correction_radii", "rewinds", "ticks_rerun"),
+        troubles=("jumps", "unusable_ticks"),
+    ),
+    "film": FILM,
 }
-VIEW_SILENT = frozenset(
-    {
-        "rejoins",
-        "regions_left_out",
-        "bytes_per_second_budget",
-        "link_renewals",
-        "updates_too_old",
-        "malformed_messages",
-        "jumps",
-        "unusable_ticks",
-        "frames_left_out",
-    }
-)

@@ -16,7 +16,7 @@ from kuglice.cli.stop import stop_on_signals
 from kuglice.extras import require
 from kuglice.protocol import DEFAULT_ENDPOINT, Rectangle
 from kuglice_client.cli.finishing import finished
-from kuglice_client.cli.groups import VIEW, VIEW_SILENT
+from kuglice_client.cli.groups import VIEW
 from kuglice_client.cli.options import (
     AsJson,
     FilmRate,
@@ -119,7 +119,7 @@ def view(
     if as_json:
         print_figures(title, {"view": summary}, as_json=True)
     else:
-        print_groups(title, summary, VIEW, silent=VIEW_SILENT)
+        print_groups(title, summary, VIEW)
     if not summary["updates"]:
         STDERR.print("nothing was told")
         raise typer.Exit(1)

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import Any
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
 
 from rich.console import Console
 from rich.table import Table
 
 from kuglice.cli.logs import STDERR
 
-__all__ = ["print_figures", "print_groups"]
+__all__ = ["Group", "print_figures", "print_groups"]
 
 NAMES = frozenset({"epoch", "number"})
 """Numbers that name something and count nothing: their digits are not grouped."""
@@ -36,36 +36,35 @@ def print_figures(title: str, columns: Mapping[str, Mapping[str, Any]], *, as_js
     Console().print(table)
 
 
-def print_groups(
-    title: str,
-    figures: Mapping[str, Any],
-    groups: Mapping[str, Sequence[str]],
-    *,
-    silent: Collection[str] = (),
-) -> None:
-    """One column for people, by `groups`: heading -> figures. What is in no group comes last.
+class Group(NamedTuple):
+    """Figures that belong together; those of `troubles` are shown only if they are neither 0 nor missing."""
 
-    Of `silent` figures only those are shown that are not 0 or missing: what can go wrong, and has not.
-    """
+    figures: tuple[str, ...]
+    troubles: tuple[str, ...] = ()
+
+
+def print_groups(title: str, figures: Mapping[str, Any], groups: Mapping[str, Group]) -> None:
+    """One column for people, heading by heading. What is in no group comes last."""
     flat = dict(_flat(figures))
-    rest = [name for name in figures if not any(name in names for names in groups.values())]
+    placed = {name for group in groups.values() for name in (*group.figures, *group.troubles)}
+    rest = Group(tuple(name for name in figures if name not in placed))
     table = Table(title=title, show_header=False)
     for _ in range(2):
         table.add_column()
     table.add_column(justify="right")
-    for heading, names in {**groups, "more": rest}.items():
+    for heading, group in {**groups, "more": rest}.items():
         shown = [
             (figure, value)
-            for name in names
+            for name in (*group.figures, *group.troubles)
             for figure, value in flat.items()
-            if figure.partition(" ")[0] == name and (value or name not in silent)
+            if figure.partition(" ")[0] == name and (value or name not in group.troubles)
         ]
         for place, (figure, value) in enumerate(shown):
             name = figure.removeprefix(f"{heading} ").replace("_", " ")
             table.add_row("" if place else heading, name, _shown(figure, value))
         table.add_section()
     Console().print(table)
-    if silent:
+    if any(group.troubles for group in groups.values()):
         STDERR.print(
             "What could have gone wrong and did not is left out; --json has every figure.", highlight=False
         )

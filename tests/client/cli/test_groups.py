@@ -7,14 +7,14 @@ import inspect
 
 import pytest
 
-from kuglice.cli.figures import print_groups
+from kuglice.cli.figures import Group, print_groups
 from kuglice_client import summary
-from kuglice_client.cli.groups import CLIENT, CLIENT_SILENT, VIEW, VIEW_SILENT
+from kuglice_client.cli.groups import CLIENT, VIEW
 from kuglice_client.view import summary as view_summary
 
 FIGURES = {
-    "client": (summary, CLIENT, CLIENT_SILENT),
-    "view": (view_summary, VIEW, VIEW_SILENT),
+    "client": (summary, CLIENT),
+    "view": (view_summary, VIEW),
 }
 
 
@@ -32,22 +32,21 @@ def told_by(module: object) -> set[str]:
 
 @pytest.mark.parametrize("of", FIGURES)
 def test_every_figure_has_its_place_and_only_one(of):
-    module, groups, silent = FIGURES[of]
-    placed = [name for names in groups.values() for name in names]
+    module, groups = FIGURES[of]
+    placed = [name for group in groups.values() for name in (*group.figures, *group.troubles)]
     assert len(placed) == len(set(placed))
     assert told_by(module) <= set(placed)
-    assert silent <= set(placed)
 
 
 def test_troubles_are_shown_when_there_were_some(capsys):
-    groups = {"state": ("hashes", "rejoins"), "feel": ("feel",)}
+    groups = {"state": Group(("hashes",), troubles=("rejoins",)), "feel": Group(("feel",))}
     figures = {"hashes": 0, "rejoins": 0, "feel": {"delay_ms": None}, "new": 1.5}
-    print_groups("Client", figures, groups, silent={"rejoins"})
+    print_groups("Client", figures, groups)
     quiet = capsys.readouterr()
     assert "hashes" in quiet.out
     assert "rejoins" not in quiet.out
     assert "more" in quiet.out
     assert "--json has every figure" in quiet.err
     assert "None" not in quiet.out
-    print_groups("Client", {**figures, "rejoins": 2}, groups, silent={"rejoins"})
+    print_groups("Client", {**figures, "rejoins": 2}, groups)
     assert "rejoins" in capsys.readouterr().out
