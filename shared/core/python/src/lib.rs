@@ -5,6 +5,11 @@ mod arrays;
 mod errors;
 #[expect(
     unsafe_code,
+    reason = "an allocator is unsafe by nature; see its SAFETY lines"
+)]
+mod large_pages;
+#[expect(
+    unsafe_code,
     reason = "numpy arrays over a world's own memory; see its SAFETY lines and .ci/memcheck"
 )]
 mod lease;
@@ -23,6 +28,9 @@ use kuglice_step::{
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
+
+#[global_allocator]
+static ALLOCATOR: large_pages::LargePages = large_pages::LargePages;
 
 /// Numbers `first .. first + count` of a stream, in [0, 1).
 #[pyfunction]

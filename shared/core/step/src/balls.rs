@@ -266,7 +266,9 @@ impl Balls {
         } else {
             self.id[first] > self.id[second]
         };
-        if swap { (second, first) } else { (first, second) }
+        // Without a branch: which of two neighbours is the older, no processor foresees.
+        let flip = (first ^ second) & usize::from(swap).wrapping_neg();
+        (first ^ flip, second ^ flip)
     }
 
     /// Where the ball with this id is stored.
@@ -288,16 +290,16 @@ impl Balls {
 
     /// Moves the balls in memory: the one from index `order[i]` is at index i afterwards. `spare` lends its memory, and is
     /// no whole copy of anything afterwards.
-    pub(crate) fn arrange(&mut self, order: &[u32], spare: &mut Balls) {
+    pub(crate) fn arrange(&mut self, order: &[u32], spare: &mut Balls, team: &Team) {
         debug_assert_eq!(order.len(), self.len());
-        rearrange(&mut self.position, &mut spare.position, order);
-        rearrange(&mut self.velocity, &mut spare.velocity, order);
-        rearrange(&mut self.id, &mut spare.id, order);
+        rearrange(&mut self.position, &mut spare.position, order, team);
+        rearrange(&mut self.velocity, &mut spare.position, order, team);
+        rearrange(&mut self.id, &mut spare.id, order, team);
         if self.uniform.is_none() {
-            rearrange(&mut self.radius, &mut spare.radius, order);
-            rearrange(&mut self.mass, &mut spare.mass, order);
+            rearrange(&mut self.radius, &mut spare.radius, order, team);
+            rearrange(&mut self.mass, &mut spare.radius, order, team);
         }
-        self.order.moved(spare.order.invert(order));
+        self.order.moved(spare.order.invert(order), team);
         // Its radii and masses are those of another time: nobody may take them for what a common shape promises.
         spare.uniform = None;
     }
@@ -336,14 +338,24 @@ impl Balls {
     }
 }
 
-fn rearrange<T: Copy>(all: &mut Vec<T>, spare: &mut Vec<T>, order: &[u32]) {
-    spare.clear();
-    spare.extend(order.iter().map(|&index| all[index as usize]));
+fn rearrange<T: Copy + Default + Send + Sync>(
+    all: &mut Vec<T>,
+    spare: &mut Vec<T>,
+    order: &[u32],
+    team: &Team,
+) {
+    spare.resize(order.len(), T::default());
+    let from = &all[..];
+    team.each((&mut spare[..], order), GRAIN, &|(places, order)| {
+        for (place, &index) in places.iter_mut().zip(order) {
+            *place = from[index as usize];
+        }
+    });
     std::mem::swap(all, spare);
 }
 
 /// Whether no number is infinite or NaN: 0 times such a one is NaN, and a sum with NaN is NaN.
-fn are_finite(all: &[Vec2]) -> bool {
+pub(crate) fn are_finite(all: &[Vec2]) -> bool {
     let mut sums = [Vec2::ZERO; 4];
     let (fours, rest) = all.as_chunks::<4>();
     for four in fours {

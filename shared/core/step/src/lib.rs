@@ -28,6 +28,7 @@ pub mod force;
 mod hash;
 mod input;
 pub mod integrator;
+mod last;
 mod model;
 mod order;
 pub mod random;

@@ -3,6 +3,8 @@
 //! Memory order is nobody's business but the cache's: neighbours in the plane are kept near each other in memory, and
 //! whatever has to be in id order asks here. While memory order is id order, as in small worlds, nothing is stored.
 
+use crate::team::{GRAIN, Team};
+
 /// Indices in id order.
 #[derive(Debug, Default)]
 pub(crate) struct Order {
@@ -57,13 +59,15 @@ impl Order {
     }
 
     /// Balls were moved in memory: `place[i]` is where the one from index i is now.
-    pub(crate) fn moved(&mut self, place: &[u32]) {
+    pub(crate) fn moved(&mut self, place: &[u32], team: &Team) {
         if self.by_id.is_empty() {
             self.by_id.extend_from_slice(place);
         } else {
-            for index in &mut self.by_id {
-                *index = place[*index as usize];
-            }
+            team.each(&mut self.by_id[..], GRAIN, &|indices| {
+                for index in indices {
+                    *index = place[*index as usize];
+                }
+            });
         }
     }
 
@@ -80,7 +84,7 @@ impl Order {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Balls, NewBall, Vec2};
+    use crate::{Balls, NewBall, Team, Vec2};
     use proptest::prelude::*;
 
     fn ball(x: f64) -> NewBall {
@@ -129,7 +133,7 @@ mod tests {
                         let id = model.remove(which % model.len());
                         balls.remove(balls.index_of(id).unwrap());
                     }
-                    Change::Arrange(seed) => balls.arrange(&shuffled(model.len(), seed), &mut Balls::default()),
+                    Change::Arrange(seed) => balls.arrange(&shuffled(model.len(), seed), &mut Balls::default(), &Team::default()),
                     Change::Remove(_) => {}
                 }
             }

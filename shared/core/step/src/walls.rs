@@ -1,10 +1,10 @@
 //! The walls of the box.
 
-use crate::team::GRAIN;
-use crate::{Balls, Counters, Rules, Team, Vec2};
+use crate::broadphase::Reach;
+use crate::{Rules, Vec2};
 
 /// Balls that are passed over together.
-const GROUP: usize = 16;
+pub(crate) const GROUP: usize = 16;
 
 /// A wall as a half-plane.
 #[derive(Clone, Copy, Debug)]
@@ -77,38 +77,37 @@ impl Walls {
     }
 }
 
-/// Turns the velocity of every ball that reaches beyond a wall and moves on into it, in the order left, right,
-/// bottom, top. Positions are left alone.
-pub(crate) fn reflect(rules: &Rules, balls: &mut Balls, counters: &mut Counters, team: &Team) {
-    if !rules.walls() {
-        return;
+/// Of up to 16 groups of balls, a bit for each in which one reaches beyond a wall: most groups are nowhere near one.
+pub(crate) fn beyond(rules: &Rules, positions: &[Vec2], radii: Reach<'_>) -> u16 {
+    let groups = positions.chunks(GROUP).zip(0..);
+    let bit = |inside: bool, group: u32| u16::from(!inside) << group;
+    match radii {
+        _ if !rules.walls() => 0,
+        Reach::Same(radius) => groups.fold(0, |bits, (positions, group)| {
+            bits | bit(all_inside(rules, positions, radius), group)
+        }),
+        Reach::Each(radii) => {
+            (groups.zip(radii.chunks(GROUP))).fold(0, |bits, ((positions, group), radii)| {
+                let inside = (positions.iter().zip(radii)).fold(true, |all, (&position, &radius)| {
+                    all & is_inside(rules, position, radius)
+                });
+                bits | bit(inside, group)
+            })
+        }
     }
-    counters.wall_hits += match balls.uniform() {
-        Some(shape) => team.share(
-            (&balls.position[..], &mut balls.velocity[..]),
-            GRAIN,
-            &|(positions, velocities)| {
-                let groups = positions.chunks(GROUP).zip(velocities.chunks_mut(GROUP));
-                (groups.filter(|(positions, _)| !inside(rules, positions, shape.radius)))
-                    .map(|(positions, velocities)| {
-                        reflect_all(rules, positions, velocities, |_| shape.radius)
-                    })
-                    .sum()
-            },
-            &|left, right| left + right,
-        ),
-        None => team.share(
-            (&balls.position[..], &mut balls.velocity[..], &balls.radius[..]),
-            GRAIN,
-            &|(positions, velocities, radii)| reflect_all(rules, positions, velocities, |index| radii[index]),
-            &|left, right| left + right,
-        ),
-    };
 }
 
-/// Whether none of a group of balls reaches beyond a wall: most groups are nowhere near one.
+fn is_inside(rules: &Rules, position: Vec2, radius: f64) -> bool {
+    let [left, bottom, right, top] = rules.bounds();
+    (position.x - radius >= left)
+        & (position.x + radius <= right)
+        & (position.y - radius >= bottom)
+        & (position.y + radius <= top)
+}
+
+/// Whether none of a group of balls reaches beyond a wall.
 #[inline]
-fn inside(rules: &Rules, positions: &[Vec2], radius: f64) -> bool {
+fn all_inside(rules: &Rules, positions: &[Vec2], radius: f64) -> bool {
     let (mut low, mut high) = (positions[0], positions[0]);
     for position in positions {
         // As comparisons, not minima: these are single instructions.
@@ -124,41 +123,27 @@ fn inside(rules: &Rules, positions: &[Vec2], radius: f64) -> bool {
         & (high.y + radius <= top)
 }
 
-#[inline]
-fn reflect_all(
-    rules: &Rules,
-    positions: &[Vec2],
-    velocities: &mut [Vec2],
-    radius: impl Fn(usize) -> f64,
-) -> u64 {
+/// The velocity of a ball that reaches beyond a wall and moves on into it, turned in the order left, right, bottom, top;
+/// and how many walls turned it.
+pub(crate) fn reflected(rules: &Rules, position: Vec2, mut velocity: Vec2, radius: f64) -> (Vec2, u64) {
     let [left, bottom, right, top] = rules.bounds();
     let restitution = rules.restitution();
     let mut hits = 0;
-    for (index, (position, velocity)) in positions.iter().zip(velocities).enumerate() {
-        let radius = radius(index);
-        let inside = (position.x - radius >= left)
-            & (position.x + radius <= right)
-            & (position.y - radius >= bottom)
-            & (position.y + radius <= top);
-        if inside {
-            continue;
-        }
-        if position.x - radius < left && velocity.x < 0.0 {
-            velocity.x *= -restitution;
-            hits += 1;
-        }
-        if position.x + radius > right && velocity.x > 0.0 {
-            velocity.x *= -restitution;
-            hits += 1;
-        }
-        if position.y - radius < bottom && velocity.y < 0.0 {
-            velocity.y *= -restitution;
-            hits += 1;
-        }
-        if position.y + radius > top && velocity.y > 0.0 {
-            velocity.y *= -restitution;
-            hits += 1;
-        }
+    if position.x - radius < left && velocity.x < 0.0 {
+        velocity.x *= -restitution;
+        hits += 1;
     }
-    hits
+    if position.x + radius > right && velocity.x > 0.0 {
+        velocity.x *= -restitution;
+        hits += 1;
+    }
+    if position.y - radius < bottom && velocity.y < 0.0 {
+        velocity.y *= -restitution;
+        hits += 1;
+    }
+    if position.y + radius > top && velocity.y > 0.0 {
+        velocity.y *= -restitution;
+        hits += 1;
+    }
+    (velocity, hits)
 }

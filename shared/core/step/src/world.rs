@@ -7,8 +7,8 @@ use std::sync::Arc;
 use crate::broadphase::{Broadphase, Pair};
 use crate::contacts::{Contacts, Pairs, Substep};
 use crate::force::{Field, HeldNow};
+use crate::last::Last;
 use crate::snapshot::Saving;
-use crate::team::GRAIN;
 use crate::{Error, Input, Model, NewBall, Rules, State, Team, Vec2, apply, energy, hash, snapshot};
 
 /// A simulation that can be stepped, copied, saved and restored.
@@ -18,8 +18,7 @@ pub struct World {
     state: State,
     contacts: Box<dyn Contacts>,
     broadphase: Box<dyn Broadphase>,
-    /// The last whole tick, to go back to if a step fails.
-    last: State,
+    last: Last,
     inputs: Vec<Input>,
     /// Ticks until the balls are put in spatial order again.
     until_arranged: u32,
@@ -29,7 +28,7 @@ pub struct World {
 /// Balls that are fewer than this stay in id order: the nearest cache holds them all.
 const FEW_BALLS: usize = 2048;
 /// Ticks after which neighbours have drifted so far apart in memory that arranging them pays.
-const ARRANGED_TICKS: u32 = 64;
+const ARRANGED_TICKS: u32 = 23;
 
 impl Clone for World {
     fn clone(&self) -> World {
@@ -81,7 +80,7 @@ impl World {
             state,
             contacts,
             broadphase,
-            last: State::default(),
+            last: Last::default(),
             inputs: Vec::new(),
             until_arranged: 0,
             team: Team::default(),
@@ -119,44 +118,14 @@ impl World {
         }
         let team = self.team.clone();
         team.enter(|| {
-            self.remember(!inputs.is_empty());
+            self.last.begin(&self.state, !inputs.is_empty());
             let done = self.try_step(inputs, dt, budget);
             match done {
                 Ok(()) => self.arrange(),
-                Err(_) => self.go_back(!inputs.is_empty()),
+                Err(_) => self.last.go_back(&mut self.state),
             }
             done
         })
-    }
-
-    /// Keeps the last whole tick. One without inputs changes nothing but these.
-    fn remember(&mut self, whole: bool) {
-        if whole {
-            self.last.clone_from(&self.state);
-            return;
-        }
-        self.last.counters = self.state.counters;
-        let (from, to) = (&self.state.balls, &mut self.last.balls);
-        to.position.resize(from.len(), Vec2::ZERO);
-        to.velocity.resize(from.len(), Vec2::ZERO);
-        let positions = (&mut to.position[..], &from.position[..]);
-        let velocities = (&mut to.velocity[..], &from.velocity[..]);
-        self.team
-            .each((positions, velocities), GRAIN, &|(positions, velocities)| {
-                positions.0.copy_from_slice(positions.1);
-                velocities.0.copy_from_slice(velocities.1);
-            });
-    }
-
-    /// Back to the last whole tick.
-    fn go_back(&mut self, whole: bool) {
-        if whole {
-            std::mem::swap(&mut self.state, &mut self.last);
-            return;
-        }
-        self.state.counters = self.last.counters;
-        std::mem::swap(&mut self.state.balls.position, &mut self.last.balls.position);
-        std::mem::swap(&mut self.state.balls.velocity, &mut self.last.balls.velocity);
     }
 
     /// Puts neighbours near each other in memory, now and then. No result depends on it.
@@ -171,7 +140,7 @@ impl World {
         }
         self.until_arranged = ARRANGED_TICKS;
         if let Some(order) = self.broadphase.order() {
-            balls.arrange(order, &mut self.last.balls);
+            balls.arrange(order, self.last.spare(), &self.team);
         }
     }
 
@@ -185,6 +154,10 @@ impl World {
         let whole = dt.unwrap_or(1.0 / self.rules.tick_rate());
         let part = whole / f64::from(self.model.substeps());
         let field = Field::new(self.rules.forces(), &state.balls, HeldNow::of(state));
+        if !self.contacts.keeps_last() {
+            self.last.keep(&state.balls, &self.team);
+        }
+        let mut finite = false;
         for substep in 0..self.model.substeps() {
             self.contacts.advance(&mut Substep {
                 rules: &self.rules,
@@ -198,9 +171,11 @@ impl World {
                 time: start + f64::from(substep) * part,
                 dt: part,
                 budget: &mut budget,
+                last: &mut self.last,
+                finite: &mut finite,
             })?;
         }
-        if let Some(ball) = state.balls.first_not_finite(&self.team) {
+        if !finite && let Some(ball) = state.balls.first_not_finite(&self.team) {
             return Err(Error::Diverged {
                 tick: state.tick,
                 ball,

@@ -10,8 +10,8 @@ from kuglice.scenes import gas
 
 __all__ = ["CASES"]
 
-ARRANGED_TICKS = 65
-"""Balls are put in spatial order every 65 ticks: a mean over fewer would leave its cost out, or its fading gain."""
+ARRANGED_TICKS = 72
+"""Balls are put in spatial order every 24 ticks: a mean over fewer would leave its cost out, or its fading gain."""
 BALL_STEPS = 1_000_000
 
 

@@ -3,7 +3,7 @@
 //! out exact; whatever hits twice in one tick does not.
 
 use super::exchange::{Shares, SharesOf, exchange, normal};
-use super::{Contacts, Pairs, Substep};
+use super::{Contacts, Pairs, Rule, Substep};
 use crate::force::Field;
 use crate::{Balls, Counters, Error, Rules, Vec2};
 
@@ -22,32 +22,44 @@ impl Contacts for Backtrack {
         if !matches!(substep.field, Field::None(_)) {
             self.accelerations.extend_from_slice(&balls.velocity);
         }
-        (substep.integrator.advance)(balls, substep.field, substep.time, dt, substep.team);
+        substep
+            .integrator
+            .advance_all(balls, substep.field, substep.time, dt, substep.team);
         for (acceleration, &velocity) in self.accelerations.iter_mut().zip(&balls.velocity) {
             *acceleration = (velocity - *acceleration) * (1.0 / dt);
         }
         self.pairs
             .find_overlapping(balls, substep.broadphase, substep.team);
-        let alike = SharesOf::new(balls, rules.restitution());
-        let hit = |balls: &Balls, first: usize, second: usize| {
-            let shares = alike.pair(balls, first, second)?;
-            collide(
-                balls,
-                (first, second),
-                alike.reach(balls, first, second),
-                shares,
-                dt,
-            )
+        let rule = Backwards {
+            alike: SharesOf::new(balls, rules.restitution()),
+            dt,
         };
-        let apply = |balls: &mut Balls, first: usize, second: usize, Hit { shift, velocity }: Hit| {
+        let mut apply = |balls: &mut Balls, first: usize, second: usize, Hit { shift, velocity }: Hit| {
             for (at, index) in [first, second].into_iter().enumerate() {
                 balls.position[index] += shift[at];
                 balls.velocity[index] = velocity[at];
             }
         };
-        substep.counters.collisions += self.pairs.treat(balls, substep.team, &hit, &apply);
+        substep.counters.collisions += self.pairs.treat(balls, substep.team, &rule, &mut apply);
         walls(rules, balls, &self.accelerations, dt, substep.counters);
         Ok(())
+    }
+}
+
+struct Backwards {
+    alike: SharesOf,
+    dt: f64,
+}
+
+impl Rule<Hit> for Backwards {
+    fn may(&self, _: &Balls, _: usize, _: usize) -> bool {
+        true
+    }
+
+    fn outcome(&self, balls: &Balls, first: usize, second: usize) -> Option<Hit> {
+        let shares = self.alike.pair(balls, first, second)?;
+        let reach = self.alike.reach(balls, first, second);
+        collide(balls, (first, second), reach, shares, self.dt)
     }
 }
 

@@ -75,11 +75,17 @@ impl SharesOf {
 #[inline]
 pub(super) fn normal(first: Vec2, second: Vec2) -> Vec2 {
     let between = second - first;
-    if between.square() >= f64::MIN_POSITIVE {
+    if has_direction(between) {
         between
     } else {
         COINCIDENT_NORMAL
     }
+}
+
+/// Whether the centres are far enough apart to say where one is, seen from the other.
+#[inline]
+pub(super) fn has_direction(between: Vec2) -> bool {
+    between.square() >= f64::MIN_POSITIVE
 }
 
 /// The velocities of a pair after an exchange along `normal`; `approach` is (v1 - v2) . normal.

@@ -13,9 +13,11 @@ mod root;
 use crate::broadphase::Broadphase;
 use crate::force::Field;
 use crate::integrator::Integrator;
+use crate::last::Last;
 use crate::{Balls, Counters, Error, Rules, Team};
 
 pub(crate) use pairs::Pairs;
+use pairs::Rule;
 
 /// Most collisions in one tick; see [`Error::EventLimit`]. Unit tests jam balls on purpose, and have no time for as many.
 pub const EVENT_LIMIT: u64 = if cfg!(test) { 40_000 } else { 4_000_000 };
@@ -44,10 +46,19 @@ pub struct Substep<'a> {
     pub dt: f64,
     /// Pairs that `event` may still look at in this tick; see [`Error::Budget`].
     pub budget: &'a mut u64,
+    /// Keeps what a failed tick goes back to.
+    pub(crate) last: &'a mut Last,
+    /// Set by a treatment that knows every number to be finite; else the world looks for itself.
+    pub finite: &'a mut bool,
 }
 
 /// A contact treatment; what it keeps is scratch memory.
 pub trait Contacts: Send + Sync {
+    /// Whether it keeps the last tick itself, as it moves the balls; else that is done before.
+    fn keeps_last(&self) -> bool {
+        false
+    }
+
     /// Moves the balls over one substep, collisions included.
     ///
     /// # Errors

@@ -16,7 +16,8 @@ struct Entangled {
 }
 
 impl Entangled {
-    fn new(balls: &Balls, first: usize, second: usize) -> Entangled {
+    fn new(balls: &Balls, pair: Pair) -> Entangled {
+        let (first, second) = by_id(balls, pair);
         Entangled {
             ids: (balls.id[first], balls.id[second]),
             first: first as u32,
@@ -32,22 +33,76 @@ struct Piece<O> {
 }
 
 impl<O> Piece<O> {
-    fn work_out(
-        &mut self,
-        balls: &Balls,
-        list: &[Pair],
-        counts: &[u8],
-        outcome: &impl Fn(&Balls, usize, usize) -> Option<O>,
-    ) {
-        for &pair in list {
-            let (first, second) = by_id(balls, pair);
-            if (counts[first], counts[second]) != (1, 1) {
-                self.entangled.push(Entangled::new(balls, first, second));
-            } else if let Some(outcome) = outcome(balls, first, second) {
-                self.outcomes.push((first as u32, second as u32, outcome));
+    fn work_out(&mut self, balls: &Balls, list: &[Pair], counts: &[u8], rule: &impl Rule<O>) {
+        for list in list.chunks(BATCH) {
+            let batch = Batch::new(balls, list, counts, rule);
+            for pair in batch.alone(list) {
+                let (first, second) = rule.in_order(balls, pair);
+                if let Some(outcome) = rule.outcome(balls, first, second) {
+                    self.outcomes.push((first as u32, second as u32, outcome));
+                }
             }
+            (self.entangled).extend(batch.entangled(list).map(|pair| Entangled::new(balls, pair)));
         }
     }
+}
+
+/// What comes of a pair.
+pub(crate) trait Rule<O>: Sync {
+    /// False if nothing does, as the two balls are now. Asked about many pairs in a row, whose balls are far from any
+    /// cache: without a branch, the processor fetches them all at once.
+    fn may(&self, balls: &Balls, first: usize, second: usize) -> bool;
+
+    /// The order in which [`Rule::outcome`] gets a pair that shares no ball: the lower id first, unless what comes of it
+    /// is the same in either order, to the last bit. Then nobody need fetch the ids.
+    fn in_order(&self, balls: &Balls, pair: Pair) -> (usize, usize) {
+        by_id(balls, pair)
+    }
+
+    /// What comes of a pair.
+    fn outcome(&self, balls: &Balls, first: usize, second: usize) -> Option<O>;
+}
+
+/// Pairs that are asked about in a row.
+const BATCH: usize = u64::BITS as usize;
+
+/// A bit for each pair of a batch.
+struct Batch {
+    /// It shares no ball with another, and something may come of it.
+    alone: u64,
+    /// It shares a ball.
+    entangled: u64,
+}
+
+impl Batch {
+    fn new<O>(balls: &Balls, list: &[Pair], counts: &[u8], rule: &impl Rule<O>) -> Batch {
+        let (mut may, mut entangled) = (0, 0);
+        for (bit, &(first, second)) in list.iter().enumerate() {
+            let (first, second) = (first as usize, second as usize);
+            may |= u64::from(rule.may(balls, first, second)) << bit;
+            entangled |= u64::from((counts[first] | counts[second]) > 1) << bit;
+        }
+        Batch {
+            alone: may & !entangled,
+            entangled,
+        }
+    }
+
+    fn alone(&self, list: &[Pair]) -> impl Iterator<Item = Pair> {
+        chosen(self.alone, list)
+    }
+
+    fn entangled(&self, list: &[Pair]) -> impl Iterator<Item = Pair> {
+        chosen(self.entangled, list)
+    }
+}
+
+fn chosen(mut bits: u64, list: &[Pair]) -> impl Iterator<Item = Pair> {
+    std::iter::from_fn(move || {
+        let pair = list.get(bits.trailing_zeros() as usize)?;
+        bits &= bits - 1;
+        Some(*pair)
+    })
 }
 
 /// Scratch memory for the pairs of one substep; `O` is what can come of a pair.
@@ -84,35 +139,35 @@ impl<O: Copy + Send> Pairs<O> {
         self.found.keep_overlapping(&discs_of(balls), team);
     }
 
-    /// Treats the pairs as if in order of (lower id, higher id). `outcome` and `apply` get a pair as indices, the lower
-    /// id first. Returns how many pairs had an outcome.
+    /// Treats the pairs as if in order of (lower id, higher id). `apply` gets a pair as `rule` did. Returns how many pairs had
+    /// an outcome.
     pub(crate) fn treat(
         &mut self,
         balls: &mut Balls,
         team: &Team,
-        outcome: &(impl Fn(&Balls, usize, usize) -> Option<O> + Sync),
-        apply: &impl Fn(&mut Balls, usize, usize, O),
+        rule: &impl Rule<O>,
+        apply: &mut impl FnMut(&mut Balls, usize, usize, O),
     ) -> u64 {
         self.count(balls.len());
         let mut treated = 0;
         let mut treat = |balls: &mut Balls, first: usize, second: usize| {
-            if let Some(outcome) = outcome(balls, first, second) {
+            if let Some(outcome) = rule.outcome(balls, first, second) {
                 apply(balls, first, second, outcome);
                 treated += 1;
             }
         };
         self.entangled.clear();
         if team.size() == 1 {
-            for pair in self.found.iter() {
-                let (first, second) = by_id(balls, pair);
-                if (self.counts[first], self.counts[second]) == (1, 1) {
+            for list in self.found.lists().iter().flat_map(|list| list.chunks(BATCH)) {
+                let batch = Batch::new(balls, list, &self.counts, rule);
+                for pair in batch.alone(list) {
+                    let (first, second) = rule.in_order(balls, pair);
                     treat(balls, first, second);
-                } else {
-                    self.entangled.push(Entangled::new(balls, first, second));
                 }
+                (self.entangled).extend(batch.entangled(list).map(|pair| Entangled::new(balls, pair)));
             }
         } else {
-            self.work_out(balls, team, outcome);
+            self.work_out(balls, team, rule);
         }
         self.entangled.sort_unstable_by_key(|pair| pair.ids);
         for pair in &self.entangled {
@@ -127,12 +182,7 @@ impl<O: Copy + Send> Pairs<O> {
     }
 
     /// Works out what comes of each pair that shares no ball with another, and collects the others.
-    fn work_out(
-        &mut self,
-        balls: &Balls,
-        team: &Team,
-        outcome: &(impl Fn(&Balls, usize, usize) -> Option<O> + Sync),
-    ) {
+    fn work_out(&mut self, balls: &Balls, team: &Team, rule: &impl Rule<O>) {
         let lists = self.found.lists();
         self.pieces.resize_with(lists.len(), || Piece {
             outcomes: Vec::new(),
@@ -141,7 +191,7 @@ impl<O: Copy + Send> Pairs<O> {
         let counts = &self.counts[..];
         team.each((&mut self.pieces[..], lists), 1, &|(pieces, lists)| {
             for (piece, list) in pieces.iter_mut().zip(lists) {
-                piece.work_out(balls, list, counts, outcome);
+                piece.work_out(balls, list, counts, rule);
             }
         });
         for piece in &mut self.pieces {

@@ -15,8 +15,20 @@ trait Scheme {
     fn advance<A: Acceleration>(acceleration: &A, time: f64, dt: f64, body: Body) -> (Vec2, Vec2);
 }
 
-/// Moves all balls from `time` by `dt` seconds.
-pub type Advance = fn(balls: &mut Balls, field: &Field, time: f64, dt: f64, team: &Team);
+/// Balls that stand side by side in memory.
+pub struct Bodies<'a> {
+    /// The index of the first.
+    pub start: usize,
+    /// Centres.
+    pub position: &'a mut [Vec2],
+    /// Velocities.
+    pub velocity: &'a mut [Vec2],
+    /// Masses.
+    pub mass: &'a [f64],
+}
+
+/// Moves balls from `time` by `dt` seconds.
+pub type Advance = fn(bodies: Bodies<'_>, field: &Field, time: f64, dt: f64);
 
 /// A registered integrator.
 pub struct Integrator {
@@ -24,6 +36,28 @@ pub struct Integrator {
     pub name: &'static str,
     /// What it does.
     pub advance: Advance,
+}
+
+impl Integrator {
+    /// Moves all balls of a world.
+    pub fn advance_all(&self, balls: &mut Balls, field: &Field, time: f64, dt: f64, team: &Team) {
+        let count = balls.len();
+        let whole = (
+            &mut balls.position[..],
+            &mut balls.velocity[..],
+            &balls.mass[..],
+            0..count,
+        );
+        team.each(whole, GRAIN, &|(position, velocity, mass, indices)| {
+            let bodies = Bodies {
+                start: indices.start,
+                position,
+                velocity,
+                mass,
+            };
+            (self.advance)(bodies, field, time, dt);
+        });
+    }
 }
 
 /// All integrators.
@@ -46,42 +80,30 @@ pub static TABLE: [Integrator; 4] = [
     },
 ];
 
-fn advance<S: Scheme>(balls: &mut Balls, field: &Field, time: f64, dt: f64, team: &Team) {
+fn advance<S: Scheme>(bodies: Bodies<'_>, field: &Field, time: f64, dt: f64) {
     match field {
-        Field::None(none) => each::<S, _>(balls, none, time, dt, team),
-        Field::Constant(constant) => each::<S, _>(balls, constant, time, dt, team),
-        Field::Sum(sum) => each::<S, _>(balls, sum, time, dt, team),
+        Field::None(none) => each::<S, _>(bodies, none, time, dt),
+        Field::Constant(constant) => each::<S, _>(bodies, constant, time, dt),
+        Field::Sum(sum) => each::<S, _>(bodies, sum, time, dt),
     }
 }
 
-fn each<S: Scheme, A: Acceleration>(balls: &mut Balls, acceleration: &A, time: f64, dt: f64, team: &Team) {
-    let count = balls.len();
+fn each<S: Scheme, A: Acceleration>(bodies: Bodies<'_>, acceleration: &A, time: f64, dt: f64) {
+    let moving = bodies.position.iter_mut().zip(bodies.velocity);
     if A::ZERO {
         // All schemes agree on a straight line, and this loop reads no masses.
-        let whole = (&mut balls.position[..], &balls.velocity[..]);
-        team.each(whole, GRAIN, &|(positions, velocities)| {
-            for (position, velocity) in positions.iter_mut().zip(velocities) {
-                *position += *velocity * dt;
-            }
-        });
+        for (position, velocity) in moving {
+            *position += *velocity * dt;
+        }
         return;
     }
-    let whole = (
-        &mut balls.position[..],
-        &mut balls.velocity[..],
-        &balls.mass[..],
-        0..count,
-    );
-    team.each(whole, GRAIN, &|(positions, velocities, masses, indices)| {
-        let moving = positions.iter_mut().zip(velocities).zip(masses).zip(indices);
-        for (((position, velocity), &mass), index) in moving {
-            let body = Body {
-                index,
-                mass,
-                position: *position,
-                velocity: *velocity,
-            };
-            (*position, *velocity) = S::advance(acceleration, time, dt, body);
-        }
-    });
+    for (((position, velocity), &mass), index) in moving.zip(bodies.mass).zip(bodies.start..) {
+        let body = Body {
+            index,
+            mass,
+            position: *position,
+            velocity: *velocity,
+        };
+        (*position, *velocity) = S::advance(acceleration, time, dt, body);
+    }
 }

@@ -39,15 +39,23 @@ fn balls(count: usize, order: &[u32]) -> Balls {
         };
         balls.push(id as u64 * 3, ball);
     }
-    balls.arrange(order, &mut Balls::default());
+    balls.arrange(order, &mut Balls::default(), &Team::default());
     balls
 }
 
-/// Depends on the order, and comes of two pairs in three.
-fn outcome(balls: &Balls, first: usize, second: usize) -> Option<Vec2> {
-    let (a, b) = (balls.velocity[first], balls.velocity[second]);
-    let mixed = Vec2::new((a.x * 3.0 + b.x).rem_euclid(101.0), a.y + 2.0 * b.y);
-    ((balls.id[first] + balls.id[second]) % 3 != 1).then_some(mixed)
+/// Something that depends on the order, and comes of two pairs in three.
+struct TwoInThree;
+
+impl Rule<Vec2> for TwoInThree {
+    fn may(&self, balls: &Balls, first: usize, second: usize) -> bool {
+        (balls.id[first] + balls.id[second]) % 3 != 1
+    }
+
+    fn outcome(&self, balls: &Balls, first: usize, second: usize) -> Option<Vec2> {
+        let (a, b) = (balls.velocity[first], balls.velocity[second]);
+        let mixed = Vec2::new((a.x * 3.0 + b.x).rem_euclid(101.0), a.y + 2.0 * b.y);
+        self.may(balls, first, second).then_some(mixed)
+    }
 }
 
 fn apply(balls: &mut Balls, first: usize, second: usize, mixed: Vec2) {
@@ -84,7 +92,7 @@ proptest! {
         in_order.sort_unstable_by_key(|&(a, b)| (judge.id[a], judge.id[b]));
         let mut expected = 0;
         for (first, second) in in_order {
-            if let Some(mixed) = outcome(&judge, first, second) {
+            if let Some(mixed) = TwoInThree.outcome(&judge, first, second) {
                 apply(&mut judge, first, second, mixed);
                 expected += 1;
             }
@@ -95,7 +103,7 @@ proptest! {
         for _ in 0..2 {
             let mut treated = start.clone();
             pairs.find(&treated, &mut Told(told.clone()), &team);
-            prop_assert_eq!(pairs.treat(&mut treated, &team, &outcome, &apply), expected);
+            prop_assert_eq!(pairs.treat(&mut treated, &team, &TwoInThree, &mut apply), expected);
             prop_assert_eq!(&treated.velocity, &judge.velocity);
             prop_assert!(pairs.counts.iter().all(|&count| count == 0));
         }
