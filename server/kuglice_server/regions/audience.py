@@ -12,25 +12,31 @@ import zenoh
 __all__ = ["Audience"]
 
 
+ASKED_EVERY = 64
+"""Looks."""
+
+
 class Audience:
-    """Of one publisher."""
+    """Of one publisher. Those with another `number` are asked about at another look."""
 
-    def __init__(self, publisher: zenoh.Publisher) -> None:
+    def __init__(self, publisher: zenoh.Publisher, number: int = 0) -> None:
         self._publisher = publisher
-        # Of changes only the last counts. A channel and no callback: Zenoh's threads need not wait for Python.
+        # Of changes only the last counts; that somebody is there already comes as the first. A channel and no callback:
+        # Zenoh's threads need not wait for Python.
         self._changes = publisher.declare_matching_listener(zenoh.handlers.RingChannel(1))
+        self._looks = number
         self._present = False
-        self.ask()
 
-    @property
     def present(self) -> bool:
-        """As far as Zenoh has told."""
+        """Look whether anybody is there."""
         while (status := self._changes.try_recv()) is not None:
             self._present = status.matching
+        self._looks += 1
+        if self._looks % ASKED_EVERY == 0:
+            self._present = self._ask()
         return self._present
 
-    def ask(self) -> None:
-        """Make sure of it."""
+    def _ask(self) -> bool:
         # The stubs call this a bool; it is an object that has one.
         status: object = self._publisher.matching_status
-        self._present = bool(getattr(status, "matching", status))
+        return bool(getattr(status, "matching", status))

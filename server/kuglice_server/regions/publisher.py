@@ -99,7 +99,7 @@ class RegionPublisher:
                 return
             # What went wrong beside the tick goes wrong here.
             self._told.result()
-        watched = self._watch.looked_at(turn)
+        watched = self._watch.looked_at()
         due = [one for one in watched if (turn + one.node) % (1 << one.pace) == 0]
         if due:
             self._tell(world, due, turn)
@@ -147,7 +147,7 @@ class RegionPublisher:
             return None
 
     def _tell_holding(self, world: World, turn: int) -> None:
-        if not self._hearing.present:
+        if not self._hearing.present():
             return
         now = (world.players, world.held)
         if now == self._held and turn - self._held_at < self._again:

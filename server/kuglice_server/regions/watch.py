@@ -19,8 +19,6 @@ __all__ = ["Watch", "Watched"]
 DECLARED_PER_TURN = 256
 """Declaring takes tens of microseconds each, and a tick waits for it."""
 WITHDRAWN_PER_TURN = 64
-ASKED_EVERY_TURNS = 64
-"""Each node, at turns of its own."""
 MOST_PUBLISHERS = 8192
 """Publishers of nodes that nobody looks at any more are kept, for a view may come back, up to so many."""
 
@@ -63,7 +61,7 @@ class Watch:
         """For closing."""
         return tuple(node.publisher for root in self._roots for node in _all(root))
 
-    def looked_at(self, turn: int) -> list[Watched]:
+    def looked_at(self) -> list[Watched]:
         """Of a view that has just come, nodes may be missing that the next turn finds."""
         found: list[Watched] = []
         allowance = DECLARED_PER_TURN
@@ -71,9 +69,7 @@ class Watch:
             waiting = [root]
             while waiting:
                 node = waiting.pop()
-                if (turn + node.number) % ASKED_EVERY_TURNS == 0:
-                    node.audience.ask()
-                if not node.audience.present:
+                if not node.audience.present():
                     continue
                 if len(node.path) == self._depth:
                     found.append(Watched(pace, node.number, node.publisher))
@@ -100,7 +96,7 @@ class Watch:
             congestion_control=zenoh.CongestionControl.DROP,
             priority=zenoh.Priority.DATA,
         )
-        return _Node(number, path, publisher, Audience(publisher))
+        return _Node(number, path, publisher, Audience(publisher, number))
 
     def _withdraw(self) -> None:
         allowance = WITHDRAWN_PER_TURN
@@ -108,7 +104,7 @@ class Watch:
             for node in list(_all(root)):
                 if allowance <= 0:
                     return
-                if node.below and not node.audience.present:
+                if node.below and not node.audience.present():
                     gone = [one for below in node.below for one in _all(below)]
                     node.below = []
                     for one in gone:
