@@ -32,8 +32,6 @@ class Asked:
     ) -> None:
         self.refused = False
         """Whether it is the server that said no, and not the network."""
-        self.session = session
-        """Over which it was asked, and would be answered."""
         self._key = key
         self._traffic = traffic
         self._replies: list[bytes] = []

@@ -49,6 +49,7 @@ class Healing:
         self._follower = follower
         self._reconciler = reconciler
         self._state_seconds = state_seconds
+        self._session = link.session
         self._link_is_new = False
         self._asked: Asked | None = None
         self._snapshot_needed = False
@@ -67,7 +68,7 @@ class Healing:
         ticks that the server has made since what is confirmed, about; one takes `step_seconds` here.
         """
         self.brought = None
-        renewed = self._asked is not None and self._asked.session is not self._link.session
+        renewed, self._session = self._link.session is not self._session, self._link.session
         self._link_is_new = silent and (renewed or self._link_is_new)
         if self._asked is not None and (renewed or (self._asked_in_silence and not silent)):
             # The link is back: what was asked into the void is not waited for.

@@ -18,8 +18,7 @@ CHEAP, DEAR = 1e-6, 0.1
 class Question:
     refused = False
 
-    def __init__(self, session, request) -> None:
-        self.session = session
+    def __init__(self, request) -> None:
         self.request = request
         self.answer: Whole | None = None
 
@@ -33,7 +32,7 @@ class Link:
         self.asked: list[Question] = []
 
     def ask(self, key, request, *, timeout):
-        self.asked.append(Question(self.session, request))
+        self.asked.append(Question(request))
         return self.asked[-1]
 
 
