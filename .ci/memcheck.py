@@ -1,4 +1,5 @@
-"""What .ci/memcheck runs under valgrind: every use of memory that a world lends, in the orders that could go wrong."""
+"""What .ci/memcheck runs under valgrind: every use of memory that a world lends, in the orders that could go wrong, and
+balls so many that their arrays are asked for in large pages."""
 
 import gc
 from collections.abc import Callable
@@ -9,20 +10,22 @@ from kuglice import _core
 from kuglice.errors import LentError
 
 COUNT = 50
+MANY = 270_000
+"""Balls whose positions take more than 4 MiB: see large_pages.rs."""
 
 
-def world() -> _core.World:
+def world(count: int = COUNT) -> _core.World:
     """Some balls in a box, whose memory is large enough to come and go as blocks of its own."""
-    rules = _core.Rules(box=(0.0, 0.0, 60.0, 10.0), walls=True, restitution=1.0, tick_rate=60.0, forces=[])
+    rules = _core.Rules(box=(0.0, 0.0, count + 10.0, 10.0), walls=True, restitution=1.0, tick_rate=60.0, forces=[])
     model = _core.Model(integrator="verlet", contacts="overlap", broadphase="loose_quadtree")
-    place = np.arange(COUNT, dtype=float)
+    place = np.arange(count, dtype=float)
     return _core.World(
         rules,
         model,
-        position=np.stack([1.0 + place, np.full(COUNT, 5.0)], axis=1),
-        velocity=np.ones((COUNT, 2)),
-        radius=np.full(COUNT, 0.4),
-        mass=np.ones(COUNT),
+        position=np.stack([1.0 + place, np.full(count, 5.0)], axis=1),
+        velocity=np.ones((count, 2)),
+        radius=np.full(count, 0.4),
+        mass=np.ones(count),
     )
 
 
@@ -72,6 +75,18 @@ def main() -> None:
     again = two.lend()
     assert np.isfinite(total(again))
     again.end()
+
+    # Memory in large pages is used to both its ends, grows, and is given back.
+    many = world(MANY)
+    many.run(2)
+    copy = many.clone()
+    many.run(1)
+    copy.copy_from(many)
+    assert copy.state_hash == many.state_hash
+    lease = many.lend()
+    assert total(lease) == total(copy.lend())
+    del many, copy, lease
+    gc.collect()
 
     # Nothing to lend is lent as well.
     nobody = _core.World(
