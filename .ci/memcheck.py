@@ -16,7 +16,9 @@ MANY = 270_000
 
 def world(count: int = COUNT) -> _core.World:
     """Some balls in a box, whose memory is large enough to come and go as blocks of its own."""
-    rules = _core.Rules(box=(0.0, 0.0, count + 10.0, 10.0), walls=True, restitution=1.0, tick_rate=60.0, forces=[])
+    rules = _core.Rules(
+        box=(0.0, 0.0, count + 10.0, 10.0), walls=True, restitution=1.0, tick_rate=60.0, forces=[]
+    )
     model = _core.Model(integrator="verlet", contacts="overlap", broadphase="loose_quadtree")
     place = np.arange(count, dtype=float)
     return _core.World(
