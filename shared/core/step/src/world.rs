@@ -154,7 +154,8 @@ impl World {
         let whole = dt.unwrap_or(1.0 / self.rules.tick_rate());
         let part = whole / f64::from(self.model.substeps());
         let field = Field::new(self.rules.forces(), &state.balls, HeldNow::of(state));
-        if !self.contacts.keeps_last() {
+        // Of several substeps, one may fail when others have moved the balls.
+        if !self.contacts.keeps_last() || self.model.substeps() > 1 {
             self.last.keep(&state.balls, &self.team);
         }
         let mut finite = false;

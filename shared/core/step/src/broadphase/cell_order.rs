@@ -6,7 +6,10 @@
 
 use std::ops::Range;
 
+use super::lanes::Scale;
+use super::levels::Level;
 use super::sorted::Sorted;
+use super::{Discs, Reach};
 use crate::team::{Divide, Team};
 
 /// Discs that are passed over together.
@@ -46,9 +49,13 @@ pub(super) struct Places<'a> {
 impl<'a> Places<'a> {
     /// The same, block by block.
     pub(super) fn blocks(self) -> impl Iterator<Item = (&'a mut [u32], &'a mut Span, &'a mut [[f32; 2]])> {
+        let across = self
+            .across
+            .chunks_mut(BLOCK)
+            .chain(std::iter::repeat_with(Default::default));
         (self.cells.chunks_mut(BLOCK))
             .zip(self.spans)
-            .zip(self.across.chunks_mut(BLOCK))
+            .zip(across)
             .map(|((cells, span), across)| (cells, span, across))
     }
 }
@@ -59,7 +66,8 @@ impl Divide for Places<'_> {
     }
 
     fn divide(self, at: usize) -> (Self, Self) {
-        let (cells, across) = (self.cells.split_at_mut(at), self.across.split_at_mut(at));
+        let (cells, noted) = (self.cells.split_at_mut(at), at.min(self.across.len()));
+        let across = self.across.split_at_mut(noted);
         let spans = self.spans.split_at_mut(at.div_ceil(BLOCK));
         (
             Places {
@@ -81,9 +89,13 @@ impl Divide for Places<'_> {
 pub(super) struct Input<'a> {
     pub(super) cells: &'a [u32],
     pub(super) spans: &'a [Span],
+    /// Where all discs share their reach; empty where they do not: there coordinates come of the discs again, as fast, and
+    /// take no memory.
     pub(super) across: &'a [[f32; 2]],
-    /// In the units of the sorted arrays; empty if all discs share it.
-    pub(super) reach: &'a [f32],
+    pub(super) discs: &'a Discs<'a>,
+    /// In whose cells coordinates are counted.
+    pub(super) finest: Level,
+    pub(super) scale: Scale,
 }
 
 impl<'a> Input<'a> {
@@ -119,7 +131,7 @@ impl CellOrder {
         sorted: &mut Sorted,
     ) {
         let count = input.cells.len();
-        sorted.resize(count, !input.reach.is_empty());
+        sorted.resize(count, matches!(input.discs.reach, Reach::Each(_)));
         offsets.resize(cells + 1, 0);
         let parts = team.pieces();
         self.pieces.clear();
@@ -264,26 +276,34 @@ impl Placing<'_> {
     }
 
     fn place_one(self, input: Input<'_>) {
+        match input.discs.reach {
+            Reach::Same(_) => self.scatter(input, |index, _, _| input.across[index]),
+            Reach::Each(all) => self.scatter(input, |index, slot, reaches| {
+                reaches[slot] = input.scale.probed(all[index]);
+                let across = input.finest.across(input.discs.center[index]);
+                [across.x as f32, across.y as f32]
+            }),
+        }
+    }
+
+    /// `note` gives a disc's coordinates, and notes its reach in a slot.
+    #[inline(always)]
+    fn scatter(self, input: Input<'_>, note: impl Fn(usize, usize, &mut [f32]) -> [f32; 2]) {
         let Piece {
             cells: (first, end),
             discs: (begin, _),
         } = self.pieces[0];
         // From the last to the first, so that each offset ends up at the first disc of its cell.
         for (start, block) in input.blocks(&(first..end)).rev() {
-            let across = &input.across[start..start + block.len()];
-            for (at, (&cell, &[x, y])) in block.iter().zip(across).enumerate().rev() {
+            for (at, &cell) in block.iter().enumerate().rev() {
                 let Some(offset) = self.offsets.get_mut(cell.wrapping_sub(first) as usize) else {
                     continue;
                 };
                 *offset -= 1;
                 let (slot, index) = (*offset as usize, start + at);
-                self.x[slot] = x;
-                self.y[slot] = y;
+                [self.x[slot], self.y[slot]] = note(index, slot, self.reach);
                 self.cell[slot] = cell;
                 self.index[slot] = index as u32;
-                if !self.reach.is_empty() {
-                    self.reach[slot] = input.reach[index];
-                }
             }
         }
         if begin > 0 {

@@ -23,9 +23,8 @@ pub(super) struct LooseQuadtree {
     scale: Scale,
     cells: Vec<u32>,
     spans: Vec<Span>,
-    /// Coordinates in cells of the finest level.
+    /// Coordinates in cells of the finest level, where all discs share their reach.
     across: Vec<[f32; 2]>,
-    reach: Vec<f32>,
     cell_order: CellOrder,
     /// For each cell, where its discs begin in the sorted arrays; the number behind the last cell ends the table.
     offsets: Vec<u32>,
@@ -44,7 +43,6 @@ impl LooseQuadtree {
             cells: Vec::new(),
             spans: Vec::new(),
             across: Vec::new(),
-            reach: Vec::new(),
             cell_order: CellOrder::default(),
             offsets: Vec::new(),
             sorted: Sorted::default(),
@@ -54,15 +52,14 @@ impl LooseQuadtree {
         }
     }
 
-    /// Finds the cell of each disc, and its coordinates in cells of the finest level.
+    /// Finds the cell of each disc, and its coordinates in cells of the finest level where they are kept.
     fn locate(&mut self, discs: &Discs<'_>, team: &Team) {
         let count = discs.len();
         self.cells.resize(count, 0);
         self.spans.resize(count.div_ceil(BLOCK), Span::ALL);
-        self.across.resize(count, [0.0; 2]);
         let each = matches!(discs.reach, Reach::Each(_));
-        self.reach.resize(if each { count } else { 0 }, 0.0);
-        let (levels, scale) = (&self.levels, self.scale);
+        self.across.resize(if each { 0 } else { count }, [0.0; 2]);
+        let levels = &self.levels;
         let finest = *levels.finest();
         let places = Places {
             cells: &mut self.cells,
@@ -88,18 +85,13 @@ impl LooseQuadtree {
                 }
             }),
             Reach::Each(all) => {
-                let whole = (places, discs.center, all, &mut self.reach[..]);
-                team.each(whole, BLOCK, &|(places, centers, all, reaches)| {
-                    for (narrow, &reach) in reaches.iter_mut().zip(all) {
-                        *narrow = scale.probed(reach);
-                    }
+                let whole = (places, discs.center, all);
+                team.each(whole, BLOCK, &|(places, centers, all)| {
                     let discs = centers.chunks(BLOCK).zip(all.chunks(BLOCK));
-                    for ((cells, covered, narrow), (centers, all)) in places.blocks().zip(discs) {
+                    for ((cells, covered, _), (centers, all)) in places.blocks().zip(discs) {
                         let discs = centers.iter().zip(all);
-                        for ((cell, narrow), (&center, &reach)) in cells.iter_mut().zip(narrow).zip(discs) {
-                            let across = finest.across(center);
+                        for (cell, (&center, &reach)) in cells.iter_mut().zip(discs) {
                             *cell = levels.of(reach).cell_at(center);
-                            *narrow = [across.x as f32, across.y as f32];
                         }
                         *covered = span(cells);
                     }
@@ -210,7 +202,9 @@ impl Broadphase for LooseQuadtree {
             cells: &self.cells,
             spans: &self.spans,
             across: &self.across,
-            reach: &self.reach,
+            discs,
+            finest: *self.levels.finest(),
+            scale: self.scale,
         };
         let cells = self.levels.cells();
         self.cell_order

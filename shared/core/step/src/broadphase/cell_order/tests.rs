@@ -1,6 +1,8 @@
 //! The judge is the stable sort of the standard library.
 
 use super::*;
+use crate::Vec2;
+use crate::broadphase::levels::Levels;
 use proptest::prelude::*;
 
 /// Few cells with many discs, many with few, neighbours in memory or strewn: what blocks and pieces could stumble over.
@@ -17,6 +19,27 @@ fn cells() -> impl Strategy<Value = (usize, Vec<u32>)> {
     prop_oneof![strewn, ascending, one]
 }
 
+/// In which cells coordinates of these discs are counted, and how they become f32.
+fn layout(discs: &Discs<'_>) -> (Level, Scale) {
+    let mut levels = Levels::default();
+    levels.lay_out(discs, [0.0, 0.0, 5000.0, 500.0]);
+    let finest = *levels.finest();
+    (finest, finest.scale())
+}
+
+fn narrow(level: Level, center: Vec2) -> [f32; 2] {
+    let across = level.across(center);
+    [across.x as f32, across.y as f32]
+}
+
+/// As they are given to the sort.
+fn coordinates(level: Level, discs: &Discs<'_>) -> Vec<[f32; 2]> {
+    match discs.reach {
+        Reach::Same(_) => discs.center.iter().map(|&center| narrow(level, center)).collect(),
+        Reach::Each(_) => Vec::new(),
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
@@ -27,14 +50,20 @@ proptest! {
         with_reach in any::<bool>(),
     ) {
         let team = Team::new(threads).unwrap();
-        let across: Vec<[f32; 2]> = (0..of.len()).map(|disc| [disc as f32, -(disc as f32)]).collect();
-        let reach: Vec<f32> = (0..of.len()).map(|disc| 0.5 + disc as f32).collect();
+        let center: Vec<Vec2> = (0..of.len()).map(|disc| Vec2::new(disc as f64, 0.1 * disc as f64)).collect();
+        let each: Vec<f64> = (0..of.len()).map(|disc| 0.5 + disc as f64).collect();
+        let reach = if with_reach { Reach::Each(&each) } else { Reach::Same(0.5) };
+        let discs = Discs { center: &center, reach };
+        let (finest, scale) = layout(&discs);
+ let across = coordinates(finest, &discs);
         let spans: Vec<Span> = of.chunks(BLOCK).map(Span::of).collect();
         let input = Input {
             cells: &of,
             spans: &spans,
             across: &across,
-            reach: if with_reach { &reach } else { &[] },
+            discs: &discs,
+            finest,
+            scale,
         };
         let (mut offsets, mut sorted) = (vec![7; 3], Sorted::default());
         CellOrder::default().sort(input, cells, &team, &mut offsets, &mut sorted);
@@ -50,9 +79,9 @@ proptest! {
         for (slot, &disc) in expected.iter().enumerate() {
             let disc = disc as usize;
             prop_assert_eq!(sorted.cell[slot], of[disc]);
-            prop_assert_eq!([sorted.x[slot], sorted.y[slot]], across[disc]);
+            prop_assert_eq!([sorted.x[slot], sorted.y[slot]], narrow(finest, center[disc]));
             if with_reach {
-                prop_assert_eq!(sorted.reach[slot], reach[disc]);
+                prop_assert_eq!(sorted.reach[slot], scale.probed(each[disc]));
             }
         }
     }
@@ -67,12 +96,20 @@ fn what_was_sorted_before_does_not_matter() {
         (1, vec![]),
         (5, vec![4, 4, 0]),
     ] {
-        let across = vec![[0.0; 2]; of.len()];
+        let center = vec![Vec2::ZERO; of.len()];
+        let discs = Discs {
+            center: &center,
+            reach: Reach::Same(1.0),
+        };
+        let (finest, scale) = layout(&discs);
+        let across = coordinates(finest, &discs);
         let input = Input {
             cells: &of,
             spans: &[Span::ALL; 2],
             across: &across,
-            reach: &[],
+            discs: &discs,
+            finest,
+            scale,
         };
         order.sort(input, cells, &Team::default(), &mut offsets, &mut sorted);
         let mut expected: Vec<u32> = (0..of.len() as u32).collect();

@@ -48,6 +48,10 @@ impl Default for EventDriven {
 }
 
 impl Contacts for EventDriven {
+    fn keeps_last(&self) -> bool {
+        true
+    }
+
     fn advance(&mut self, substep: &mut Substep<'_>) -> Result<(), Error> {
         self.begin(substep);
         self.first.predict(&mut self.paths, substep);
@@ -55,8 +59,11 @@ impl Contacts for EventDriven {
         if let Some(grouped) = &mut self.grouped
             && grouped.run(&self.paths, substep, self.first.lists())
         {
+            *substep.finite = true;
             return Ok(());
         }
+        *substep.finite = false;
+        substep.last.keep(substep.balls, substep.team);
         self.sequence
             .run(&mut self.paths, substep, self.first.lists_mut())?;
         self.end(substep);
@@ -80,10 +87,13 @@ impl EventDriven {
         match substep.field {
             Field::None(_) => self
                 .paths
-                .begin(balls, dt, Motion::Straight, elastic, team, |_| Vec2::ZERO),
-            Field::Constant(field) => self
-                .paths
-                .begin(balls, dt, Motion::Curved, elastic, team, |_| field.0),
+                .begin(balls, (dt, elastic), Motion::Straight, team, None, |_| Vec2::ZERO),
+            Field::Constant(field) => {
+                self.paths
+                    .begin(balls, (dt, elastic), Motion::Curved, team, Some(field.0), |_| {
+                        field.0
+                    })
+            }
             Field::Sum(field) => {
                 // Constant for all but fixed balls: still exact, by the slower roots.
                 let motion = if field.is_constant() {
@@ -91,12 +101,14 @@ impl EventDriven {
                 } else {
                     Motion::Kicked
                 };
-                self.paths.begin(balls, dt, motion, elastic, team, |body| {
-                    field.at(substep.time, &body)
-                });
+                self.paths
+                    .begin(balls, (dt, elastic), motion, team, None, |body| {
+                        field.at(substep.time, &body)
+                    });
             }
         }
         if self.paths.motion == Motion::Kicked {
+            substep.last.keep(balls, substep.team);
             for (velocity, acceleration) in balls.velocity.iter_mut().zip(&self.paths.acceleration) {
                 *velocity += *acceleration * (0.5 * substep.dt);
             }

@@ -4,6 +4,8 @@
 //! and `since` is the time at which that piece began. A collision time is computed from two pieces alone, so it does
 //! not depend on when, or by which broadphase, the pair was looked at.
 
+use std::ops::Range;
+
 use super::contact::ROUNDING;
 use super::piece::{Piece, radius, widen};
 use super::rest::{Support, Supports};
@@ -33,6 +35,8 @@ pub(super) struct Paths {
     pub(super) hits: Vec<u32>,
     /// Along the path if curved, in the kicks if kicked; less what resting contacts have taken. Unused if straight.
     pub(super) acceleration: Vec<Vec2>,
+    /// What all balls have, until contacts may change it: then no array is filled, nor read.
+    common: Option<Vec2>,
     /// The same as it was at the start. Unused if straight.
     pub(super) kicks: Vec<Vec2>,
     /// Balls that have another so near at the start that both could meet at the speed which one substep's
@@ -48,16 +52,28 @@ pub(super) struct Paths {
     /// A disc around all that is left of each ball's path.
     pub(super) center: Vec<Vec2>,
     pub(super) reach: Vec<f64>,
+    /// Where paths are not hit, balls have finite places and velocities at the end of the substep.
+    pub(super) is_moderate: bool,
+}
+
+/// Far from overflow, however often such numbers are added.
+const MODERATE: f64 = 1e300;
+
+/// Whether a ball that ends a piece of path with that velocity, and has that disc around it, is somewhere.
+#[inline]
+pub(super) fn is_moderate(center: Vec2, reach: f64, velocity: Vec2) -> bool {
+    let size = |vector: Vec2| vector.x.abs() + vector.y.abs();
+    size(center) + reach + size(velocity) < MODERATE
 }
 
 impl Paths {
     pub(super) fn begin(
         &mut self,
         balls: &Balls,
-        length: f64,
+        (length, elastic): (f64, bool),
         motion: Motion,
-        elastic: bool,
         team: &Team,
+        common: Option<Vec2>,
         acceleration: impl Fn(Body) -> Vec2 + Sync,
     ) {
         let count = balls.len();
@@ -68,7 +84,8 @@ impl Paths {
         self.supports.clear();
         self.touched.clear();
         self.margin = 0.0;
-        if motion == Motion::Straight {
+        self.common = common.filter(|_| elastic && motion == Motion::Curved);
+        if motion == Motion::Straight || self.common.is_some() {
             return;
         }
         self.acceleration.resize(count, Vec2::ZERO);
@@ -92,6 +109,10 @@ impl Paths {
 
     /// Counts hits, and keeps accelerations that contacts may change, from the start of the substep on.
     pub(super) fn follow_hits(&mut self, balls: &Balls) {
+        if let Some(common) = self.common.take() {
+            self.acceleration.clear();
+            self.acceleration.resize(balls.len(), common);
+        }
         self.kicks.clear();
         if self.motion != Motion::Straight {
             self.kicks.extend_from_slice(&self.acceleration);
@@ -136,11 +157,10 @@ impl Paths {
 
     /// Acceleration along the path.
     #[inline]
-    fn curvature(&self, index: usize) -> Vec2 {
-        if self.motion == Motion::Curved {
-            self.acceleration[index]
-        } else {
-            Vec2::ZERO
+    pub(super) fn curvature(&self, index: usize) -> Vec2 {
+        match self.motion {
+            Motion::Curved => self.common.unwrap_or_else(|| self.acceleration[index]),
+            Motion::Straight | Motion::Kicked => Vec2::ZERO,
         }
     }
 
@@ -264,46 +284,81 @@ impl Paths {
 
     /// Discs around all paths, as they are at the start of the substep.
     pub(super) fn sweep(&mut self, balls: &Balls, team: &Team) {
-        let (count, uniform) = (balls.len(), balls.uniform());
-        let (half, margin) = (0.5 * self.length, 0.5 * self.margin);
         let (mut center, mut reach) = (std::mem::take(&mut self.center), std::mem::take(&mut self.reach));
-        center.resize(count, Vec2::ZERO);
-        reach.resize(count, 0.0);
+        center.resize(balls.len(), Vec2::ZERO);
+        reach.resize(balls.len(), 0.0);
         let paths = &*self;
-        let whole = (&mut center[..], &mut reach[..], 0..count);
-        if paths.motion == Motion::Curved {
-            team.each(whole, GRAIN, &|(centers, reaches, indices)| {
-                for ((center, reach), index) in centers.iter_mut().zip(reaches).zip(indices) {
-                    let piece = paths.first_piece(balls, index);
-                    (*center, *reach) = piece.disc(paths.motion, paths.length, radius(balls, index));
-                }
-            });
-        } else {
-            // At this point every path is straight and whole.
-            team.each(whole, GRAIN, &|(centers, reaches, indices)| {
-                let moving = balls.position[indices.clone()]
-                    .iter()
-                    .zip(&balls.velocity[indices.clone()]);
-                for (center, (&position, &velocity)) in centers.iter_mut().zip(moving) {
-                    *center = position + velocity * half;
-                }
-                let velocities = &balls.velocity[indices.clone()];
-                match uniform {
-                    Some(shape) => {
-                        for (reach, velocity) in reaches.iter_mut().zip(velocities) {
-                            *reach = widen(shape.radius, velocity.length() * half + margin);
+        let whole = (&mut center[..], &mut reach[..], 0..balls.len());
+        let moderate = team.share(
+            whole,
+            GRAIN,
+            &|(centers, reaches, indices)| {
+                // Block by block: what one loop has read, the next finds in the nearest cache.
+                let blocks = centers.chunks_mut(GRAIN).zip(reaches.chunks_mut(GRAIN));
+                (blocks.zip(indices.step_by(GRAIN)))
+                    .map(|((centers, reaches), begin)| {
+                        let indices = begin..begin + centers.len();
+                        if paths.motion == Motion::Curved {
+                            paths.sweep_curved(balls, indices, centers, reaches)
+                        } else {
+                            paths.sweep_straight(balls, indices, centers, reaches)
                         }
-                    }
-                    None => {
-                        let sized = balls.radius[indices].iter().zip(velocities);
-                        for (reach, (&radius, velocity)) in reaches.iter_mut().zip(sized) {
-                            *reach = widen(radius, velocity.length() * half + margin);
-                        }
-                    }
-                }
-            });
+                    })
+                    .fold(true, |all, moderate| all & moderate)
+            },
+            &|left, right| left & right,
+        );
+        (self.center, self.reach, self.is_moderate) = (center, reach, moderate);
+    }
+
+    /// The discs of these balls; says whether they, and the velocities at the end of the substep, are moderate.
+    fn sweep_curved(
+        &self,
+        balls: &Balls,
+        indices: Range<usize>,
+        centers: &mut [Vec2],
+        reaches: &mut [f64],
+    ) -> bool {
+        let mut moderate = true;
+        for ((center, reach), index) in centers.iter_mut().zip(reaches).zip(indices) {
+            let piece = self.first_piece(balls, index);
+            (*center, *reach) = piece.disc(self.motion, self.length, radius(balls, index));
+            let (_, velocity) = piece.at(self.motion, self.length);
+            moderate &= is_moderate(*center, *reach, velocity);
         }
-        (self.center, self.reach) = (center, reach);
+        moderate
+    }
+
+    /// The same where every path is straight and whole.
+    fn sweep_straight(
+        &self,
+        balls: &Balls,
+        indices: Range<usize>,
+        centers: &mut [Vec2],
+        reaches: &mut [f64],
+    ) -> bool {
+        let (half, margin) = (0.5 * self.length, 0.5 * self.margin);
+        let (positions, velocities) = (&balls.position[indices.clone()], &balls.velocity[indices.clone()]);
+        for (center, (&position, &velocity)) in centers.iter_mut().zip(positions.iter().zip(velocities)) {
+            *center = position + velocity * half;
+        }
+        match balls.uniform() {
+            Some(shape) => {
+                for (reach, velocity) in reaches.iter_mut().zip(velocities) {
+                    *reach = widen(shape.radius, velocity.length() * half + margin);
+                }
+            }
+            None => {
+                let sized = balls.radius[indices].iter().zip(velocities);
+                for (reach, (&radius, velocity)) in reaches.iter_mut().zip(sized) {
+                    *reach = widen(radius, velocity.length() * half + margin);
+                }
+            }
+        }
+        let discs = centers.iter().zip(&*reaches).zip(velocities);
+        discs.fold(true, |all, ((&center, &reach), &velocity)| {
+            all & is_moderate(center, reach, velocity)
+        })
     }
 
     /// The disc around what is left of one path.

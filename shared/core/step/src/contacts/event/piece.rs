@@ -14,7 +14,38 @@ pub(super) struct Piece {
     pub(super) curvature: Vec2,
 }
 
+/// Where a piece of path begins. How it bends is the same for all pieces of a ball's path that a group knows of.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Start {
+    since: f64,
+    position: Vec2,
+    velocity: Vec2,
+}
+
+impl Start {
+    /// The whole piece.
+    #[inline]
+    pub(super) fn bent(&self, curvature: Vec2) -> Piece {
+        Piece {
+            since: self.since,
+            position: self.position,
+            velocity: self.velocity,
+            curvature,
+        }
+    }
+}
+
 impl Piece {
+    /// Where it begins.
+    #[inline]
+    pub(super) fn start(&self) -> Start {
+        Start {
+            since: self.since,
+            position: self.position,
+            velocity: self.velocity,
+        }
+    }
+
     /// Place and velocity at a time of the substep.
     #[inline]
     pub(super) fn at(&self, motion: Motion, time: f64) -> (Vec2, Vec2) {

@@ -4,7 +4,7 @@
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::super::paths::Paths;
-use super::super::piece::Piece;
+use super::super::piece::{Piece, Start};
 use super::super::predict;
 use super::super::queue::Party;
 use crate::Balls;
@@ -53,8 +53,8 @@ pub(super) fn leave(place: &AtomicU32) -> u32 {
 /// One of them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Actor {
-    /// What it is on now.
-    pub(super) piece: Piece,
+    /// Of the piece of path that it is on now.
+    start: Start,
     /// How far from the centre of its first disc it was taken to be, when it was relocated; 0 before.
     pub(super) far: f64,
     id: u64,
@@ -68,10 +68,18 @@ pub(super) struct Actor {
     pub(super) crosses: bool,
 }
 
+impl Actor {
+    /// The piece of path that it is on now.
+    #[inline]
+    pub(super) fn piece(&self, paths: &Paths) -> Piece {
+        self.start.bent(paths.curvature(self.ball as usize))
+    }
+}
+
 /// A piece of path that has ended.
 #[derive(Clone, Copy, Debug)]
 struct Ended {
-    piece: Piece,
+    start: Start,
     until: f64,
     /// The one before it.
     before: u32,
@@ -95,7 +103,7 @@ impl Actors {
     /// Makes a ball an actor.
     pub(super) fn enlist(&mut self, paths: &Paths, balls: &Balls, ball: usize) -> usize {
         self.all.push(Actor {
-            piece: paths.first_piece(balls, ball),
+            start: paths.first_piece(balls, ball).start(),
             far: 0.0,
             id: balls.id[ball],
             ball: ball as u32,
@@ -119,18 +127,18 @@ impl Actors {
     }
 
     /// Begins a new piece of path.
-    pub(super) fn turn(&mut self, slot: usize, piece: Piece) {
+    pub(super) fn turn(&mut self, slot: usize, piece: &Piece) {
         let (actor, hits) = (&mut self.all[slot], &mut self.hits[slot]);
         if *hits > 0 {
             let ended = Ended {
-                piece: actor.piece,
+                start: actor.start,
                 until: piece.since,
                 before: actor.ended,
             };
             actor.ended = self.ended.len() as u32;
             self.ended.push(ended);
         }
-        actor.piece = piece;
+        actor.start = piece.start();
         *hits = hits.wrapping_add(1);
     }
 
@@ -138,7 +146,7 @@ impl Actors {
     pub(super) fn put_back(&mut self, paths: &Paths, balls: &Balls, slot: usize) {
         let actor = &mut self.all[slot];
         if self.hits[slot] > 0 {
-            actor.piece = paths.first_piece(balls, actor.ball as usize);
+            actor.start = paths.first_piece(balls, actor.ball as usize).start();
             actor.ended = NONE;
             self.hits[slot] = 0;
         }
@@ -150,14 +158,15 @@ impl Actors {
     pub(super) fn meet(&self, paths: &Paths, balls: &Balls, now: (usize, &Piece), slot: usize) -> bool {
         let actor = &self.all[slot];
         let ball = actor.ball as usize;
-        let meets = |piece: &Piece| meeting(paths, balls, now, (ball, piece));
-        if meets(&paths.first_piece(balls, ball)).is_some() {
+        let curvature = paths.curvature(ball);
+        let meets = |start: &Start| meeting(paths, balls, now, (ball, &start.bent(curvature)));
+        if meets(&paths.first_piece(balls, ball).start()).is_some() {
             return true;
         }
         if self.hits[slot] == 0 {
             return false;
         }
-        if meets(&actor.piece).is_some() {
+        if meets(&actor.start).is_some() {
             return true;
         }
         let mut at = actor.ended;
@@ -166,7 +175,7 @@ impl Actors {
             if ended.until < now.1.since {
                 return false;
             }
-            if meets(&ended.piece).is_some_and(|time| time <= ended.until) {
+            if meets(&ended.start).is_some_and(|time| time <= ended.until) {
                 return true;
             }
             at = ended.before;
@@ -183,10 +192,8 @@ pub(super) fn meeting(
     one: (usize, &Piece),
     other: (usize, &Piece),
 ) -> Option<f64> {
-    let (first, second) = if balls.in_id_order(one.0, other.0).0 == one.0 {
-        (one, other)
-    } else {
-        (other, one)
-    };
+    // Between equal accelerations the order does not show in the time, and ids are far away in memory.
+    let swap = one.1.curvature != other.1.curvature && balls.in_id_order(one.0, other.0).0 != one.0;
+    let (first, second) = if swap { (other, one) } else { (one, other) };
     predict::pieces_of(paths, balls, (first.0, second.0), (first.1, second.1))
 }

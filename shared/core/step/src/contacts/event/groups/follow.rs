@@ -1,5 +1,6 @@
 //! Where a ball goes that was hit, and whom it meets there.
 
+use super::super::paths::is_moderate;
 use super::super::piece::{Piece, radius};
 use super::super::predict_walls;
 use super::super::queue::Event;
@@ -17,8 +18,13 @@ impl Groups {
         slot: usize,
     ) -> Result<(), Halt> {
         let (paths, balls) = (ground.paths, ground.balls);
-        let (ball, piece) = (self.actors.all[slot].ball as usize, self.actors.all[slot].piece);
+        let actor = &self.actors.all[slot];
+        let (ball, piece) = (actor.ball as usize, actor.piece(paths));
         let (center, reach) = piece.disc(paths.motion, paths.length, radius(balls, ball));
+        let (_, velocity) = piece.at(paths.motion, paths.length);
+        if !is_moderate(center, reach, velocity) {
+            return Err(Halt::Stuck);
+        }
         self.stay(
             ground,
             beyond,
@@ -101,7 +107,7 @@ impl Groups {
             None
         };
         let theirs = match partner {
-            Some(partner) => self.actors.all[partner].piece,
+            Some(partner) => self.actors.all[partner].piece(paths),
             None => paths.first_piece(balls, other),
         };
         let Some(time) = meeting(paths, balls, (ball, piece), (other, &theirs)) else {

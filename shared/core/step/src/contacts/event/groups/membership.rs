@@ -6,7 +6,7 @@ use super::super::queue::Event;
 use super::actors::{DEFERRED, NONE, WAITING};
 use super::chains::slots;
 use super::ground::{Beyond, Ground};
-use super::set::{Group, Groups, Tally};
+use super::set::{Done, Group, Groups};
 
 impl Groups {
     /// The number of the group that runs.
@@ -119,17 +119,17 @@ impl Groups {
     pub(super) fn reopen(&mut self, number: u32) -> Range<usize> {
         let group = &mut self.groups[number as usize];
         let (begin, end) = std::mem::take(&mut group.members);
-        group.tally = Tally::default();
+        group.done = Done::default();
         begin as usize..end as usize
     }
 
     /// Closes the group that ran.
-    pub(super) fn close(&mut self, tally: Tally) {
+    pub(super) fn close(&mut self, done: Done) {
         let begin = self.members.len() as u32;
         self.members.append(&mut self.own);
         self.groups.push(Group {
             members: (begin, self.members.len() as u32),
-            tally,
+            done,
         });
     }
 

@@ -73,7 +73,8 @@ impl Grouped {
     }
 
     /// Runs all groups, to the end of the substep. False if the order of all times has to do it, for which nothing has
-    /// changed: contacts at rest, and forces between kicks, make everything hang together.
+    /// changed: contacts at rest, and forces between kicks, make everything hang together. Where it is true, all balls
+    /// have finite places and velocities.
     pub(super) fn run(&mut self, paths: &Paths, substep: &mut Substep<'_>, predicted: &[List]) -> bool {
         let suits = match paths.motion {
             Motion::Straight => true,
@@ -82,7 +83,7 @@ impl Grouped {
         };
         let count = substep.balls.len();
         let events: usize = predicted.iter().map(|list| list.events.len()).sum();
-        if !suits || count < self.least_room * events || count >= LEFT as usize {
+        if !suits || !paths.is_moderate || count < self.least_room * events || count >= LEFT as usize {
             return false;
         }
         let strips = substep.team.pieces().min(count.div_ceil(self.grain)).max(1);
@@ -155,9 +156,9 @@ impl Grouped {
         let (strips, groups, left) = (&self.strips, &self.groups[..], &self.left);
         let last_piece = |ball: usize, actor: u32| -> Piece {
             if actor & LEFT != 0 {
-                left.last_piece((actor & !LEFT) as usize)
+                left.last_piece(paths, (actor & !LEFT) as usize)
             } else {
-                groups[strips.of(paths.center[ball].y)].last_piece(actor as usize)
+                groups[strips.of(paths.center[ball].y)].last_piece(paths, actor as usize)
             }
         };
         let balls = &mut *substep.balls;

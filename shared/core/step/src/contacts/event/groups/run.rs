@@ -5,7 +5,7 @@ use super::super::piece::Piece;
 use super::super::queue::Event;
 use super::actors::WAITING;
 use super::ground::{Beyond, Ground};
-use super::set::{Groups, Tally};
+use super::set::{Done, Groups};
 use crate::contacts::exchange::normal;
 
 /// Events that are done, again or not, for each that was predicted, before the order of all times costs less.
@@ -21,7 +21,8 @@ pub(super) enum Halt {
     MetElsewhere(usize, usize),
     /// It leaves the strip.
     Leaves,
-    /// A contact is about to rest, or there are too many events: that is for the order of all times.
+    /// A contact is about to rest, a number grows beyond all bounds, or there are too many events: that is for the order of
+    /// all times.
     Stuck,
 }
 
@@ -32,6 +33,7 @@ impl Groups {
             return;
         }
         self.patience = LEAST_PATIENCE + PATIENCE * self.chains.events.len() as u64;
+        self.patience = self.patience.min(u64::from(u32::MAX));
         let mut number = 0;
         while number < self.chains.events.len() {
             let first = self.chains.events[number].first as usize;
@@ -42,10 +44,10 @@ impl Groups {
             self.own.clear();
             self.claim(first);
             loop {
-                let mut tally = Tally::default();
-                match self.run_group(ground, beyond, &mut tally) {
+                let mut done = Done::default();
+                match self.run_group(ground, beyond, &mut done) {
                     Ok(()) => {
-                        self.close(tally);
+                        self.close(done);
                         break;
                     }
                     Err(Halt::Met(slot)) => {
@@ -73,7 +75,7 @@ impl Groups {
         &mut self,
         ground: &Ground<'_>,
         beyond: &mut Beyond<'_>,
-        tally: &mut Tally,
+        done: &mut Done,
     ) -> Result<(), Halt> {
         self.queue.clear();
         for &slot in &self.own {
@@ -87,20 +89,20 @@ impl Groups {
             }
         }
         while let Some(event) = self.queue.next(&self.actors.hits) {
-            tally.events += 1;
+            done.events += 1;
             self.patience = self.patience.checked_sub(1).ok_or(Halt::Stuck)?;
             let first = event.first as usize;
             match event.partner.as_ball() {
                 Some(second) => {
                     if let Some(hit) = self.bounce(ground, first, second, event.time)? {
-                        tally.collisions += u64::from(hit);
+                        done.collisions += u32::from(hit);
                         self.follow(ground, beyond, first)?;
                         self.follow(ground, beyond, second)?;
                     }
                 }
                 None => {
                     if let Some(hit) = self.bounce_off(ground, first, &event)? {
-                        tally.wall_hits += u64::from(hit);
+                        done.wall_hits += u32::from(hit);
                         self.follow(ground, beyond, first)?;
                     }
                 }
@@ -119,12 +121,13 @@ impl Groups {
     ) -> Result<Option<bool>, Halt> {
         let (one, another) = (&self.actors.all[first], &self.actors.all[second]);
         let motion = ground.paths.motion;
-        let (p1, v1) = one.piece.at(motion, time);
-        let (p2, v2) = another.piece.at(motion, time);
+        let pieces = (one.piece(ground.paths), another.piece(ground.paths));
+        let (p1, v1) = pieces.0.at(motion, time);
+        let (p2, v2) = pieces.1.at(motion, time);
         let hits = (self.actors.hits[first], self.actors.hits[second]);
         let bodies = [
-            ground.body(one.ball as usize, &one.piece, v1, hits.0, time),
-            ground.body(another.ball as usize, &another.piece, v2, hits.1, time),
+            ground.body(one.ball as usize, &pieces.0, v1, hits.0, time),
+            ground.body(another.ball as usize, &pieces.1, v2, hits.1, time),
         ];
         let Some(outcome) = ground.law.of_pair(normal(p1, p2), &bodies[0], &bodies[1]) else {
             return Ok(None);
@@ -133,15 +136,15 @@ impl Groups {
             return Err(Halt::Stuck);
         }
         let [w1, w2] = outcome.velocities;
-        for (slot, position, velocity) in [(first, p1, w1), (second, p2, w2)] {
-            let curvature = self.actors.all[slot].piece.curvature;
+        let after = [(first, p1, w1, &pieces.0), (second, p2, w2, &pieces.1)];
+        for (slot, position, velocity, before) in after {
             let piece = Piece {
                 since: time,
                 position,
                 velocity,
-                curvature,
+                curvature: before.curvature,
             };
-            self.actors.turn(slot, piece);
+            self.actors.turn(slot, &piece);
         }
         Ok(Some(outcome.hit))
     }
@@ -152,9 +155,10 @@ impl Groups {
             return Ok(None);
         };
         let actor = &self.actors.all[slot];
-        let (position, velocity) = actor.piece.at(ground.paths.motion, event.time);
+        let before = actor.piece(ground.paths);
+        let (position, velocity) = before.at(ground.paths.motion, event.time);
         let hits = self.actors.hits[slot];
-        let body = ground.body(actor.ball as usize, &actor.piece, velocity, hits, event.time);
+        let body = ground.body(actor.ball as usize, &before, velocity, hits, event.time);
         let wall = walls.wall(event.partner.as_wall());
         // Whether a ball touches no other decides about rest alone, which groups know nothing of.
         let Some(outcome) = ground.law.of_wall(&wall, &body, false) else {
@@ -167,9 +171,9 @@ impl Groups {
             since: event.time,
             position,
             velocity: outcome.velocities,
-            curvature: actor.piece.curvature,
+            curvature: before.curvature,
         };
-        self.actors.turn(slot, piece);
+        self.actors.turn(slot, &piece);
         Ok(Some(outcome.hit))
     }
 }

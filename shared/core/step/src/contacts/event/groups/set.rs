@@ -1,6 +1,7 @@
 //! The groups of a strip, and what they are made of.
 
 use super::super::first::List;
+use super::super::paths::Paths;
 use super::super::piece::Piece;
 use super::super::queue::{Event, Queue};
 use super::actors::{Actors, NONE};
@@ -30,11 +31,20 @@ impl Tally {
     }
 }
 
+/// What a single group did: there are as many as a tenth of all balls.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Done {
+    /// No more than the patience of all.
+    pub(super) events: u32,
+    pub(super) collisions: u32,
+    pub(super) wall_hits: u32,
+}
+
 /// One of them.
 pub(super) struct Group {
     /// Where its members are.
     pub(super) members: (u32, u32),
-    pub(super) tally: Tally,
+    pub(super) done: Done,
 }
 
 /// The groups of a strip.
@@ -130,8 +140,13 @@ impl Groups {
     #[inline]
     pub(super) fn find(&self, ground: &Ground<'_>, ball: usize) -> Option<usize> {
         let at = ground.whereabouts.get(ball);
-        let is_own = at != NONE && at & LEFT == self.mark && self.holds(ground, ball);
-        is_own.then_some((at & !LEFT) as usize)
+        if at == NONE || at & LEFT != self.mark {
+            return None;
+        }
+        // It may be what another strip's thread has written of a ball that these do not hold.
+        let slot = (at & !LEFT) as usize;
+        let is_own = (self.actors.all.get(slot)).is_some_and(|actor| actor.ball as usize == ball);
+        is_own.then_some(slot)
     }
 
     pub(super) fn find_or_enlist(&mut self, ground: &Ground<'_>, ball: usize) -> usize {
@@ -150,14 +165,16 @@ impl Groups {
             ..Tally::default()
         };
         for group in &self.groups {
-            total.add(&group.tally);
+            total.events += u64::from(group.done.events);
+            total.collisions += u64::from(group.done.collisions);
+            total.wall_hits += u64::from(group.done.wall_hits);
         }
         total
     }
 
     /// The piece of path that an actor is on in the end.
-    pub(super) fn last_piece(&self, slot: usize) -> Piece {
-        self.actors.all[slot].piece
+    pub(super) fn last_piece(&self, paths: &Paths, slot: usize) -> Piece {
+        self.actors.all[slot].piece(paths)
     }
 
     /// Puts all balls that are actors back among the others.
