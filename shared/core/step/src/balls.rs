@@ -67,7 +67,7 @@ pub struct Balls {
     pub mass: Vec<f64>,
     /// Ids, never used twice.
     pub id: Vec<u64>,
-    order: Order,
+    pub(crate) order: Order,
     uniform: Option<Uniform>,
 }
 
@@ -288,20 +288,37 @@ impl Balls {
             .filter(|&index| self.id[index] == id)
     }
 
-    /// Moves the balls in memory: the one from index `order[i]` is at index i afterwards. `spare` lends its memory, and is
-    /// no whole copy of anything afterwards.
-    pub(crate) fn arrange(&mut self, order: &[u32], spare: &mut Balls, team: &Team) {
+    /// Moves the balls in memory: the one from index `order[i]` is at index i afterwards. `spare` and `back` lend their
+    /// memory.
+    pub(crate) fn arrange(&mut self, order: &[u32], spare: &mut Vec<Vec2>, back: &mut Order, team: &Team) {
         debug_assert_eq!(order.len(), self.len());
-        rearrange(&mut self.position, &mut spare.position, order, team);
-        rearrange(&mut self.velocity, &mut spare.position, order, team);
-        rearrange(&mut self.id, &mut spare.id, order, team);
-        if self.uniform.is_none() {
-            rearrange(&mut self.radius, &mut spare.radius, order, team);
-            rearrange(&mut self.mass, &mut spare.radius, order, team);
+        spare.resize(order.len(), Vec2::ZERO);
+        for vectors in [&mut self.position, &mut self.velocity] {
+            gather(spare, order, team, |index| vectors[index]);
+            std::mem::swap(vectors, spare);
         }
-        self.order.moved(spare.order.invert(order), team);
-        // Its radii and masses are those of another time: nobody may take them for what a common shape promises.
-        spare.uniform = None;
+        // In halves, which an f64 holds exactly, an id needs no memory of another kind.
+        gather(spare, order, team, |index| {
+            let id = self.id[index];
+            Vec2::new(f64::from((id >> 32) as u32), f64::from(id as u32))
+        });
+        team.each((&mut self.id[..], &spare[..]), GRAIN, &|(ids, halves)| {
+            for (id, half) in ids.iter_mut().zip(halves) {
+                *id = (half.x as u64) << 32 | half.y as u64;
+            }
+        });
+        if self.uniform.is_none() {
+            gather(spare, order, team, |index| {
+                Vec2::new(self.radius[index], self.mass[index])
+            });
+            let shapes = (&mut self.radius[..], &mut self.mass[..], &spare[..]);
+            team.each(shapes, GRAIN, &|(radii, masses, shapes)| {
+                for ((radius, mass), shape) in radii.iter_mut().zip(masses).zip(shapes) {
+                    (*radius, *mass) = (shape.x, shape.y);
+                }
+            });
+        }
+        self.order.moved(back.invert(order), team);
     }
 
     /// Whether some ball is fixed.
@@ -338,20 +355,13 @@ impl Balls {
     }
 }
 
-fn rearrange<T: Copy + Default + Send + Sync>(
-    all: &mut Vec<T>,
-    spare: &mut Vec<T>,
-    order: &[u32],
-    team: &Team,
-) {
-    spare.resize(order.len(), T::default());
-    let from = &all[..];
-    team.each((&mut spare[..], order), GRAIN, &|(places, order)| {
+/// Puts what is at index `order[i]` into place i.
+fn gather(places: &mut [Vec2], order: &[u32], team: &Team, from: impl Fn(usize) -> Vec2 + Sync) {
+    team.each((places, order), GRAIN, &|(places, order)| {
         for (place, &index) in places.iter_mut().zip(order) {
-            *place = from[index as usize];
+            *place = from(index as usize);
         }
     });
-    std::mem::swap(all, spare);
 }
 
 /// Whether no number is infinite or NaN: 0 times such a one is NaN, and a sum with NaN is NaN.

@@ -3,6 +3,7 @@
 //! A tick without inputs changes nothing but counters, positions and velocities. Whoever moves the balls may keep
 //! those as he goes, while they are in the nearest cache; and where no force acts, only the velocities that he replaces.
 
+use crate::order::Order;
 use crate::team::{Divide, GRAIN, Team};
 use crate::{Balls, State, Vec2};
 
@@ -127,7 +128,8 @@ impl Last {
     }
 
     /// Memory for anybody, between ticks.
-    pub(crate) fn spare(&mut self) -> &mut Balls {
-        &mut self.state.balls
+    pub(crate) fn spare(&mut self) -> (&mut Vec<Vec2>, &mut Order) {
+        let balls = &mut self.state.balls;
+        (&mut balls.position, &mut balls.order)
     }
 }

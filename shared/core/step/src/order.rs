@@ -84,6 +84,7 @@ impl Order {
 
 #[cfg(test)]
 mod tests {
+    use super::Order;
     use crate::{Balls, NewBall, Team, Vec2};
     use proptest::prelude::*;
 
@@ -121,7 +122,8 @@ mod tests {
         #[test]
         fn every_ball_is_found_by_its_id_wherever_it_stands(changes in prop::collection::vec(change(), 0..60)) {
             let (mut balls, mut model) = (Balls::default(), Vec::new());
-            let mut next = 0u64;
+            // Both halves of an id are told apart.
+            let mut next = u64::from(u32::MAX) - 10;
             for change in changes {
                 match change {
                     Change::Push => {
@@ -133,7 +135,10 @@ mod tests {
                         let id = model.remove(which % model.len());
                         balls.remove(balls.index_of(id).unwrap());
                     }
-                    Change::Arrange(seed) => balls.arrange(&shuffled(model.len(), seed), &mut Balls::default(), &Team::default()),
+                    Change::Arrange(seed) => {
+                        let order = shuffled(model.len(), seed);
+                        balls.arrange(&order, &mut Vec::new(), &mut Order::default(), &Team::default());
+                    }
                     Change::Remove(_) => {}
                 }
             }

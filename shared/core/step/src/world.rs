@@ -140,7 +140,9 @@ impl World {
         }
         self.until_arranged = ARRANGED_TICKS;
         if let Some(order) = self.broadphase.order() {
-            balls.arrange(order, self.last.spare(), &self.team);
+            let (kept, back) = self.last.spare();
+            let spare = self.contacts.spare().unwrap_or(kept);
+            balls.arrange(order, spare, back, &self.team);
         }
     }
 

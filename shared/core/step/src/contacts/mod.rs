@@ -14,7 +14,7 @@ use crate::broadphase::Broadphase;
 use crate::force::Field;
 use crate::integrator::Integrator;
 use crate::last::Last;
-use crate::{Balls, Counters, Error, Rules, Team};
+use crate::{Balls, Counters, Error, Rules, Team, Vec2};
 
 pub(crate) use pairs::Pairs;
 use pairs::Rule;
@@ -57,6 +57,11 @@ pub trait Contacts: Send + Sync {
     /// Whether it keeps the last tick itself, as it moves the balls; else that is done before.
     fn keeps_last(&self) -> bool {
         false
+    }
+
+    /// A vector per ball that nobody needs between ticks, where it has such memory.
+    fn spare(&mut self) -> Option<&mut Vec<Vec2>> {
+        None
     }
 
     /// Moves the balls over one substep, collisions included.

@@ -52,6 +52,10 @@ impl Contacts for EventDriven {
         true
     }
 
+    fn spare(&mut self) -> Option<&mut Vec<Vec2>> {
+        Some(&mut self.paths.center)
+    }
+
     fn advance(&mut self, substep: &mut Substep<'_>) -> Result<(), Error> {
         self.begin(substep);
         self.first.predict(&mut self.paths, substep);

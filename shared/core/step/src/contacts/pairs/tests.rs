@@ -1,6 +1,7 @@
 //! However pairs are found, in pieces or not, they are treated as if one after the other in order of (lower id, higher id).
 
 use super::*;
+use crate::order::Order;
 use crate::{NewBall, Vec2};
 use proptest::prelude::*;
 
@@ -39,7 +40,7 @@ fn balls(count: usize, order: &[u32]) -> Balls {
         };
         balls.push(id as u64 * 3, ball);
     }
-    balls.arrange(order, &mut Balls::default(), &Team::default());
+    balls.arrange(order, &mut Vec::new(), &mut Order::default(), &Team::default());
     balls
 }
 
