@@ -60,7 +60,7 @@ class Client(Closing):
         self._other_epochs: set[int] = set()
         # Tells us from another who takes the same name; whoever is cut off and comes back is the same still.
         self._session = secrets.token_hex(SESSION_BYTES)
-        self.link = Link(settings.connect, deadline=deadline, stop=self.stop, renewable=True)
+        self.link = Link(settings.connect, deadline=deadline, stop=self.stop)
         self.renewal = Renewal(self.link, DatagramWatch(self.link))
         try:
             self._study = None if settings.study is None else StudyRecorder(settings.study)

@@ -44,20 +44,15 @@ class Link:
     """Connects when made; raises JoinError if that fails until `deadline`, or when `stop` is set.
 
     Messages wait in rings that drop the oldest: a client that was away for long finds what is fresh, and asks
-    for the rest. `renewable`: whoever made it opens it anew after a cut (renewal.py). `comes_back`: whether the
-    session reconnects by itself instead.
+    for the rest. After a cut it does not come back by itself: whoever made it opens it anew (renewal.py).
     """
 
-    def __init__(
-        self, connect: tuple[str, ...], *, deadline: float, stop: threading.Event, renewable: bool = False
-    ) -> None:
+    def __init__(self, connect: tuple[str, ...], *, deadline: float, stop: threading.Event) -> None:
         self.endpoints = ", ".join(connect)
         self.traffic = Traffic()
         self.malformed = 0
         self.wants_datagrams = any(map(wants_datagrams, connect))
-        # Who opens another session after a cut needs none that comes back by itself, with what it was before.
-        self.comes_back = not renewable
-        self._configuration = client_configuration(connect, timeout=1.0, reconnect=self.comes_back)
+        self._configuration = client_configuration(connect, timeout=1.0, reconnect=False)
         self.session = Opening(self._configuration).wait(deadline, stop)
         self._opening: Opening | None = None
         self._declared: list[Declared] = []

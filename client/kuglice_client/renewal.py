@@ -51,7 +51,7 @@ class Renewal:
         return renewed
 
     def _judge(self, now: float, *, silent: bool, answered: bool) -> None:
-        if silent and not self._link.comes_back and now >= self._look_at:
+        if silent and now >= self._look_at:
             self._look_at = now + LOOK_SECONDS
             if not self._link.kinds:
                 self._link.begin_renewal()

@@ -26,8 +26,7 @@ class Datagrams:
 class Link:
     """Opens another session in no time, and counts."""
 
-    def __init__(self, *, comes_back: bool = True) -> None:
-        self.comes_back = comes_back
+    def __init__(self) -> None:
         self.kinds = ["tcp"]
         self.begun = 0
         self._opening = False
@@ -94,15 +93,8 @@ def test_a_server_that_answers_and_sends_no_ticks_is_connected_to_again_now_and_
     assert link.begun == 3
 
 
-def test_a_session_that_comes_back_by_itself_is_waited_for(datagrams):
+def test_a_session_is_opened_anew_as_soon_as_it_has_no_link_any_more(datagrams):
     link = Link()
-    link.kinds = []
-    Time(link, datagrams).passes(60.0, silent=True)
-    assert link.begun == 0
-
-
-def test_one_that_does_not_is_opened_anew_as_soon_as_it_has_no_link_any_more(datagrams):
-    link = Link(comes_back=False)
     link.kinds = []
     Time(link, datagrams).passes(1.0, silent=True)
     assert link.begun >= 1

@@ -55,7 +55,7 @@ class View(Closing):
         self.correction = Correction()
         self.malformed = 0
         self.rejoins = 0
-        self.link = Link(settings.connect, deadline=deadline, stop=self.stop, renewable=True)
+        self.link = Link(settings.connect, deadline=deadline, stop=self.stop)
         self.renewal = Renewal(self.link, DatagramWatch(self.link))
         try:
             self._keys = Keys(settings.world or find_world(self.link, deadline=deadline, stop=self.stop))
