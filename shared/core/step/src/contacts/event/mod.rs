@@ -18,6 +18,7 @@ mod predict;
 mod queue;
 mod rest;
 mod sequence;
+mod sweep;
 #[cfg(test)]
 mod tests;
 

@@ -1,9 +1,9 @@
 //! Where a ball goes that was hit, and whom it meets there.
 
-use super::super::paths::is_moderate;
 use super::super::piece::{Piece, radius};
 use super::super::predict_walls;
 use super::super::queue::Event;
+use super::super::sweep::is_moderate;
 use super::actors::{DEFERRED, NONE, WAITING, meeting};
 use super::ground::{Beyond, Ground};
 use super::run::Halt;
