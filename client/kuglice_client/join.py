@@ -69,6 +69,7 @@ def find_world(link: Link, *, deadline: float, stop: threading.Event) -> str:
             break
         except JoinError:
             _pause(
+                link,
                 deadline,
                 stop,
                 why=f"no world is served at {link.endpoints}: is the server behind it running?",
@@ -97,7 +98,7 @@ def join(
             return _attempt(link, keys, who, deadline=deadline, stop=stop)
         except _NotYetError as error:
             log.debug("not yet: %s", error)
-            _pause(deadline, stop, why=str(error))
+            _pause(link, deadline, stop, why=str(error))
 
 
 class _NotYetError(JoinError):
@@ -177,7 +178,7 @@ def _number(
         why = "the server has not let it in"
         if here is not None and here.away:
             why = "another session plays it, whose link is cut: the server still waits for that one"
-        _pause(deadline, stop, why=f"client {name}: {why}")
+        _pause(link, deadline, stop, why=f"client {name}: {why}")
         asked = _ask_number(link, keys, who, deadline=deadline)
 
 
@@ -192,8 +193,9 @@ def patience(deadline: float) -> float:
     return max(LEAST_ANSWER_SECONDS, min(ANSWER_SECONDS, deadline - time.monotonic()))
 
 
-def _pause(deadline: float, stop: threading.Event, why: str) -> None:
+def _pause(link: Link, deadline: float, stop: threading.Event, why: str) -> None:
     if stop.wait(RETRY_SECONDS):
         raise JoinError("stopped while joining")
     if time.monotonic() > deadline:
         raise JoinError(why)
+    link.revive()

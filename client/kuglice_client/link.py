@@ -141,6 +141,14 @@ class Link:
         close_session(old, reversed(declared), timeout=0.0)
         return True
 
+    def revive(self) -> None:
+        """Take another session as soon as one is open, where this one has lost its link.
+
+        For whoever waits for an answer, and has no time to look as long as renewal.py does.
+        """
+        if not self.renewed() and not self.kinds:
+            self.begin_renewal()
+
     def close(self, timeout: float, *, linger: float = 0.0) -> bool:
         """Leave. False if Zenoh did not finish within `timeout` seconds.
 

@@ -28,6 +28,8 @@ RETRY_SECONDS = 0.1
 TRIES = 5
 """At a time."""
 POLL_SECONDS = 0.005
+WHOLE_TRY_SECONDS = 1.5
+"""For the first try, whatever the deadline: whoever does not want to wait wants to know whether somebody is there."""
 
 
 class Opening:
@@ -41,6 +43,7 @@ class Opening:
         self.under_way = 0
         """Tries."""
         self._begun_at = float("-inf")
+        self._first_until = time.monotonic() + WHOLE_TRY_SECONDS
         self.tries = 0
         self.failure: ProtocolError | None = None
         """Why the last try failed that did."""
@@ -63,12 +66,19 @@ class Opening:
         return None
 
     def wait(self, deadline: float, stop: threading.Event) -> zenoh.Session:
-        """The session, waited for. Raises JoinError at the deadline, in seconds, or when `stop` is set."""
-        while (session := self.poll(now := time.monotonic())) is None:
-            if now > deadline or stop.wait(POLL_SECONDS):
-                self.end()
-                why = "stopped while connecting" if stop.is_set() else nobody_answers(self._configuration)
-                raise JoinError(why) from self.failure
+        """The session, waited for. Raises JoinError at the deadline, in seconds, or when `stop` is set.
+
+        A deadline that is over sooner than the first try is over with it.
+        """
+        try:
+            while (session := self.poll(now := time.monotonic())) is None:
+                if stop.wait(POLL_SECONDS):
+                    raise JoinError("stopped while connecting")
+                if now > deadline and (self.failure is not None or now > self._first_until):
+                    raise JoinError(nobody_answers(self._configuration)) from self.failure
+        except BaseException:
+            self.end()
+            raise
         return session
 
     def end(self) -> None:
@@ -79,18 +89,18 @@ class Opening:
             close_session(session, [], timeout=0.0)
 
     def _try(self) -> None:
-        session, failure = None, None
         try:
             session = open_session(self._configuration)
+            with self._lock:
+                is_first = not self._over and self._session is None
+                if is_first:
+                    self._session = session
+            if not is_first:
+                close_session(session, [])
         except ProtocolError as error:
             log.debug("%s", error)
-            failure = error
-        with self._lock:
-            self.failure = failure or self.failure
-            if session is not None and not self._over and self._session is None:
-                self._session, session = session, None
-        if session is not None:
-            # Another was quicker.
-            close_session(session, [])
-        with self._lock:
-            self.under_way -= 1
+            with self._lock:
+                self.failure = error
+        finally:
+            with self._lock:
+                self.under_way -= 1

@@ -66,6 +66,28 @@ def test_one_that_comes_before_the_server_waits_for_it(port):
     close_session(server, [])
 
 
+def test_a_deadline_that_is_over_leaves_time_for_one_try(port):
+    server = open_session(server_configuration(listen=[f"tcp/127.0.0.1:{port}"], connect=[]))
+    session = Opening(configuration(port)).wait(time.monotonic() - 1.0, threading.Event())
+    assert not session.is_closed()
+    close_session(session, [])
+    close_session(server, [])
+
+
+def test_a_try_that_ends_in_a_way_nobody_thought_of_makes_room_for_the_next(port, monkeypatch):
+    def broken(configuration):
+        raise RuntimeError("broken")
+
+    monkeypatch.setattr("kuglice_client.opening.open_session", broken)
+    monkeypatch.setattr(threading, "excepthook", lambda told: None)
+    opening, now = Opening(configuration(port)), time.monotonic()
+    for turn in range(1, 2 * TRIES):
+        until(lambda: not opening.under_way)
+        opening.poll(now + turn * STAGGER_SECONDS)
+    assert opening.tries == 2 * TRIES
+    opening.end()
+
+
 def test_nobody_at_all_is_told_with_the_endpoint(port):
     with pytest.raises(JoinError, match=f"cannot connect to tcp/127.0.0.1:{port}"):
         Opening(configuration(port)).wait(time.monotonic() + 0.3, threading.Event())

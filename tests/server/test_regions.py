@@ -241,6 +241,23 @@ def test_a_round_is_left_out_while_the_last_one_is_not_told_yet(wired):
     assert wire.counters["region rounds left out"] == 2
 
 
+def test_no_pace_is_left_out_for_good_where_every_second_round_is(wired):
+    teller = Busy()
+    wire = wired(gas(), teller=teller)
+    heard = wire.look(KEYS.regions(1, ()))
+    for _ in range(8):
+        wire.turn()
+        wire.turn()
+        teller.free()
+    told: set[int] = set()
+
+    def all_nodes() -> bool:
+        told.update(message.node for message in heard())
+        return len(told) == wire.nodes.count
+
+    until(all_nodes, what="a message about every node")
+
+
 def test_a_region_that_became_empty_is_told_at_once_and_then_now_and_then(wired):
     scene = kg.Scene(
         box=(0.0, 0.0, 40.0, 40.0), balls=kg.Balls(position=[[5.0, 5.0]], velocity=[[60.0, 0.0]], radius=0.5)

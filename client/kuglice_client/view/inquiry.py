@@ -41,6 +41,7 @@ class Inquiry:
             except (JoinError, ProtocolError) as error:
                 if time.monotonic() > deadline or stop.wait(RETRY_SECONDS):
                     raise JoinError(f"world {self._keys.world} at {self._link.endpoints}: {error}") from error
+                self._link.revive()
 
     def ask(self, now: float) -> None:
         """Unless that was done just now."""

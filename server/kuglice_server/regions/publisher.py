@@ -60,6 +60,7 @@ class RegionPublisher:
         self._counters = counters
         self._teller = teller
         self._told: Future[None] | None = None
+        self._round: int | None = None
         self._packer = terms.packer(world.scene.box)
         self._watch = Watch(session, keys, terms.depth)
         self._holding = session.declare_publisher(
@@ -100,7 +101,9 @@ class RegionPublisher:
             # What went wrong beside the tick goes wrong here.
             self._told.result()
         watched = self._watch.looked_at()
-        due = [one for one in watched if (turn + one.node) % (1 << one.pace) == 0]
+        # Since the last round, and not in this turn: rounds that are left out may all be of the same kind.
+        last, self._round = turn - 1 if self._round is None else self._round, turn
+        due = [one for one in watched if (turn + one.node) >> one.pace != (last + one.node) >> one.pace]
         if due:
             self._tell(world, due, turn)
         if self._told_empty:

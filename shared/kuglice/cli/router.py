@@ -63,9 +63,9 @@ def router(
 
 
 def _refuse_itself(listen: Iterable[str], connect: Iterable[str]) -> None:
-    own = {endpoint.rpartition("/")[2].partition("?")[0] for endpoint in listen}
+    own = {endpoint.partition("/")[2].partition("?")[0] for endpoint in listen}
     for endpoint in connect:
-        if endpoint.rpartition("/")[2].partition("?")[0] in own:
+        if endpoint.partition("/")[2].partition("?")[0] in own:
             raise NetworkError(
                 f"router: listens on {endpoint} and connects to it, which is itself; --connect must name the server "
                 "or another router"
