@@ -17,8 +17,8 @@ def write_csv(path: Path, rows: Rows, remarks: Iterable[str] = ()) -> None:
     """One line per row under a line of names; `remarks` come first, each behind a #."""
     names = list(dict.fromkeys(name for row in rows for name in row))
     with path.open("w", newline="", encoding="utf-8") as file:
-        for remark in remarks:
-            file.write(f"# {remark}\n")
+        for line in "\n".join(remarks).splitlines():
+            file.write(f"# {line}\n")
         writer = csv.DictWriter(file, names, restval="", lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
