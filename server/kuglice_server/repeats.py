@@ -24,6 +24,8 @@ DATAGRAM_BYTES = 1_100
 """Fits into one packet of every network, with what Zenoh, UDP and IP wrap around it."""
 SAVED_SECONDS = 0.15
 """How long a quiet time may be drawn on: what a session of seconds spends of it shows in its mean."""
+OWED_SECONDS = 1.0
+"""How long what the newest ticks cost beyond the rest is paid back."""
 
 
 class Repeats:
@@ -32,6 +34,7 @@ class Repeats:
     def __init__(self, rate: float) -> None:
         self._earned = BITS_PER_SECOND / 8 / rate
         self._most = self._earned * max(1.0, SAVED_SECONDS * rate)
+        self._least = -self._earned * max(1.0, OWED_SECONDS * rate)
         self._saved = 0.0
         self._sizes: deque[int] = deque(maxlen=MAX_TOLD_TICKS)
 
@@ -57,4 +60,4 @@ class Repeats:
     def spent(self, size: int) -> None:
         """A message of that many bytes went out."""
         # What the newest ticks cost beyond it is owed, for a while.
-        self._saved = max(-self._most, self._saved - size)
+        self._saved = max(self._least, self._saved - size)

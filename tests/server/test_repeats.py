@@ -73,6 +73,13 @@ def test_a_session_of_seconds_after_a_long_quiet_stays_below_twenty_kilobits_too
     assert 8 * sum(stream.sizes[quiet:]) / 6 < 20_000
 
 
+def test_what_a_burst_cost_beyond_the_budget_is_paid_back():
+    stream = Stream()
+    for number in range(10 * RATE):
+        stream.tick(5 * (number % RATE < RATE // 4), [number - 30])
+    assert stream.bits_per_second < BITS_PER_SECOND
+
+
 def test_many_inputs_are_told_twice_whatever_that_costs():
     stream = Stream()
     told = [stream.tick(4, [number - 20]) for number in range(300)]
