@@ -40,6 +40,7 @@ SAID_AGAIN_SECONDS = 1.0
 class RegionPublisher:
     """`every`: ticks between two messages about one node at pace 0. `teller`: runs what goes on beside the tick, one
     thing at a time; whoever made it shuts it down before the session is closed. Not for two threads at once.
+    `watch` and `hearing`: who listens to nodes and to who plays, as far as the session has said so.
     """
 
     def __init__(
@@ -62,13 +63,13 @@ class RegionPublisher:
         self._told: Future[None] | None = None
         self._round: int | None = None
         self._packer = terms.packer(world.scene.box)
-        self._watch = Watch(session, keys, terms.depth)
+        self.watch = Watch(session, keys, terms.depth)
         self._holding = session.declare_publisher(
             keys.holding,
             congestion_control=zenoh.CongestionControl.DROP,
             priority=zenoh.Priority.DATA,
         )
-        self._hearing = Audience(self._holding)
+        self.hearing = Audience(self._holding)
         self._held: tuple[object, object] | None = None
         self._held_at = 0
         self._told_empty: dict[tuple[int, int], int] = {}
@@ -76,12 +77,12 @@ class RegionPublisher:
     @property
     def publishers(self) -> int:
         """How many are declared for regions."""
-        return self._watch.publishers
+        return self.watch.publishers
 
     @property
     def declared(self) -> tuple[zenoh.Publisher, ...]:
         """For closing."""
-        return (self._holding, *self._watch.declared)
+        return (self._holding, *self.watch.declared)
 
     def turn(self, world: World) -> None:
         """Publish what is due in the state that `world` is in. Never blocks, and raises nothing but bugs."""
@@ -100,7 +101,7 @@ class RegionPublisher:
                 return
             # What went wrong beside the tick goes wrong here.
             self._told.result()
-        watched = self._watch.looked_at()
+        watched = self.watch.looked_at()
         # Since the last round, and not in this turn: rounds that are left out may all be of the same kind.
         last, self._round = turn - 1 if self._round is None else self._round, turn
         due = [one for one in watched if (turn + one.node) >> one.pace != (last + one.node) >> one.pace]
@@ -150,7 +151,7 @@ class RegionPublisher:
             return None
 
     def _tell_holding(self, world: World, turn: int) -> None:
-        if not self._hearing.present():
+        if not self.hearing.present():
             return
         now = (world.players, world.held)
         if now == self._held and turn - self._held_at < self._again:
