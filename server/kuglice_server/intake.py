@@ -83,7 +83,7 @@ class Intake:
             self._new_acks.append(Ack(player.number, None, None, 0, _reason(str(error))))
             return
         if message.epoch != self._epoch:
-            self._counters["other epoch"] += 1
+            self._counters["other_epoch"] += 1
             return
         player.heard = max(player.heard or 0, min(message.heard, world.tick))
         for sent in message.inputs:
@@ -111,7 +111,7 @@ class Intake:
         player.remember(one.sequence, ack)
         player.accepted -= 1
         player.refused += 1
-        self._counters["left out"] += 1
+        self._counters["left_out"] += 1
         self._new_acks.append(ack)
 
     def acks(self, tick: int, *, repeat: int) -> list[Ack]:

@@ -69,14 +69,14 @@ class Publisher:
         # The stub says bool.
         if not self._snapshot.matching_status.matching:  # type: ignore[attr-defined]
             return
-        self._counters["snapshots out"] += 1
+        self._counters["snapshots_out"] += 1
         for part in split(data, of="snapshot", epoch=self._epoch, tick=tick):
             self._put(self._snapshot, encode(part))
 
     def _put(self, publisher: zenoh.Publisher, data: bytes) -> None:
         publisher.put(data)
-        self._counters["messages out"] += 1
-        self._counters["bytes out"] += len(data)
+        self._counters["messages_out"] += 1
+        self._counters["bytes_out"] += len(data)
 
 
 def _size(ack: Ack) -> int:

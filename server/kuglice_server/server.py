@@ -220,7 +220,7 @@ class Server(Closing):
                 balls=self._balls,
                 clients=self._players.status(),
                 refusals=self._players.refusals(),
-                counters={**self.counters, "late ticks": self._schedule.late_ticks},
+                counters={**self.counters, "late_ticks": self._schedule.late_ticks},
                 seconds_lost=self._schedule.seconds_lost,
                 worst_lateness=self._schedule.worst_lateness,
             )

@@ -109,8 +109,8 @@ class TickLoop:
     def _take_inputs(self) -> None:
         while (sample := self._inputs.try_recv()) is not None:
             data = sample.payload.to_bytes()
-            self._counters["messages in"] += 1
-            self._counters["bytes in"] += len(data)
+            self._counters["messages_in"] += 1
+            self._counters["bytes_in"] += len(data)
             if sample.kind == zenoh.SampleKind.DELETE:
                 self._say_goodbye(str(sample.key_expr))
             else:

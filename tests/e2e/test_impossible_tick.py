@@ -34,7 +34,7 @@ def test_an_input_that_makes_a_tick_impossible_is_left_out(start, endpoint, tmp_
         ana.send((1, ana.tick + 20, Kick(vx=FASTEST, vy=0.0)))
         asked = ana.answer(1).tick
         assert asked is not None
-        until(lambda: ana.status().counters.get("left out") == 1, what="it is left out")
+        until(lambda: ana.status().counters.get("left_out") == 1, what="it is left out")
         player = start("client", "--connect", endpoint, "--bot", "chaser", "--seconds", 2, "--json")
         figures = player.figures()
     server.signal(2)

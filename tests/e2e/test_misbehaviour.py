@@ -62,7 +62,7 @@ def test_late_early_duplicate_forbidden_and_foreign_inputs_have_their_answers(se
         assert counters["accepted"] == 2
         assert counters["duplicate"] >= 1
         assert counters["refused"] == 3
-        assert counters["other epoch"] == 1
+        assert counters["other_epoch"] == 1
         assert 5 not in ana.acks
     server.signal(2)
     # A join, two kicks and a leave, and nothing else, were applied.

@@ -27,7 +27,7 @@ def test_a_heap_of_spawns_is_refused_with_the_reason_and_the_world_goes_on(start
             sequence += 8
         reasons = [ack.refused for ack in ana.acks.values() if ack.refused is not None]
         assert any("no room" in reason for reason in reasons)
-        assert ana.status().counters["left out"] >= 8
+        assert ana.status().counters["left_out"] >= 8
         assert ana.status().balls < 60
     figures = player.figures()
     server.signal(2)

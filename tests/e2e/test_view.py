@@ -83,7 +83,7 @@ def test_a_view_has_just_the_balls_of_its_regions_and_moves_and_the_rest_is_not_
         )
         after = other.status()
         rounds = (after.tick - before.tick) / 6
-        told = after.counters["regions out"] - before.counters["regions out"]
+        told = after.counters["regions_out"] - before.counters["regions_out"]
         assert told <= (rounds + 2) * followed, "only what is looked at is told"
         view.move((30.0, 30.0, 38.0, 36.0))
         second = whole_tick(view, view.replica.known.world.tick)
@@ -100,9 +100,9 @@ def test_a_view_has_just_the_balls_of_its_regions_and_moves_and_the_rest_is_not_
 
 
 def _silent(other: RawClient) -> bool:
-    before = other.status().counters["regions out"]
+    before = other.status().counters["regions_out"]
     time.sleep(0.5)
-    return other.status().counters["regions out"] == before
+    return other.status().counters["regions_out"] == before
 
 
 def test_a_server_that_starts_anew_is_looked_at_again(start, scene, endpoint, look, server):
@@ -211,7 +211,7 @@ def test_through_a_router_it_is_the_same(start, scene, endpoint, server, tmp_pat
     router = start("router", "--connect", endpoint, "--listen", door)
     until(lambda: "router from" in router.err, what="the router is there")
     with RawClient(endpoint, WORLD, None) as other:
-        assert other.status().counters.get("regions out", 0) == 0
+        assert other.status().counters.get("regions_out", 0) == 0
         with View(ViewSettings(VIEW, connect=(door,), wait=30.0)) as view:
             tick = whole_tick(view)
             view.run(seconds=0.5)

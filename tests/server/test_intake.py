@@ -196,7 +196,7 @@ def test_from_another_session_of_a_name_that_plays_it_is_counted(desk):
 
 def test_of_another_epoch_it_is_counted(desk):
     assert desk.send((1, 2, Thrust(x=1, y=0)), epoch=EPOCH - 1) == []
-    assert desk.counters["other epoch"] == 1
+    assert desk.counters["other_epoch"] == 1
     assert desk.player.sequence == 0
 
 

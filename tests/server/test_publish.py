@@ -122,6 +122,6 @@ def test_a_snapshot_that_nobody_listens_for_is_not_made():
     assert counters == Counter()
     heard = session.declare_subscriber(Keys("test").snapshot, zenoh.handlers.FifoChannel(10))
     publisher.snapshot(120, b"state")
-    assert (counters["snapshots out"], counters["messages out"]) == (1, 1)
+    assert (counters["snapshots_out"], counters["messages_out"]) == (1, 1)
     assert decode(heard.recv().payload.to_bytes(), Part).tick == 120
     close_session(session, [*publisher.declared, heard])

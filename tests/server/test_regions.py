@@ -181,16 +181,16 @@ def test_only_what_somebody_looks_at_is_told(wired):
     wire = wired(gas())
     for _ in range(5):
         wire.turn()
-    assert wire.counters["regions out"] == 0
+    assert wire.counters["regions_out"] == 0
     heard = wire.look(KEYS.region(0, wire.nodes.path(6)))
     for _ in range(10):
         wire.turn()
     collect(wire, heard, {6})
-    assert wire.counters["regions out"] == 10
+    assert wire.counters["regions_out"] == 10
     heard.end()
     for _ in range(5):
         wire.turn()
-    assert wire.counters["regions out"] == 10
+    assert wire.counters["regions_out"] == 10
 
 
 def test_publishers_grow_only_below_what_is_looked_at(wired):
@@ -213,7 +213,7 @@ def test_each_pace_is_half_as_often_as_the_one_before(wired):
     def all_came() -> bool:
         for pace, one in enumerate(heard):
             counts[pace] += len(one())
-        return sum(counts) == wire.counters["regions out"]
+        return sum(counts) == wire.counters["regions_out"]
 
     for _ in range(32):
         wire.turn()
@@ -254,7 +254,7 @@ def test_a_round_is_left_out_while_the_last_one_is_not_told_yet(wired):
 
     until(two, what="two messages")
     assert ticks == [1, 4]
-    assert wire.counters["region rounds left out"] == 2
+    assert wire.counters["region_rounds_left_out"] == 2
 
 
 def test_no_pace_is_left_out_for_good_where_every_second_round_is(wired):
@@ -286,7 +286,7 @@ def test_a_region_that_became_empty_is_told_at_once_and_then_now_and_then(wired)
 
     def done() -> bool:
         told.extend(heard())
-        return len(told) == wire.counters["regions out"]
+        return len(told) == wire.counters["regions_out"]
 
     until(done, what="all messages")
     first = [message.tick for message in told if message.node == 0 and message.balls == b"\0"]

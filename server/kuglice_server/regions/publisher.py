@@ -97,7 +97,7 @@ class RegionPublisher:
         self._tell_holding(world, turn)
         if self._told is not None:
             if not self._told.done():
-                self._counters["region rounds left out"] += 1
+                self._counters["region_rounds_left_out"] += 1
                 return
             # What went wrong beside the tick goes wrong here.
             self._told.result()
@@ -114,7 +114,7 @@ class RegionPublisher:
     def _tell(self, world: World, due: list[Watched], turn: int) -> None:
         nodes = sorted({one.node for one in due})
         packed, left_out = world.regions(self._packer, nodes)
-        self._counters["balls not told"] += left_out
+        self._counters["balls_not_told"] += left_out
         balls = dict(zip(nodes, packed, strict=True))
         worth = [one for one in due if self._worth_telling(one, balls[one.node], turn)]
         self._told = self._teller.submit(self._put_all, world.tick, worth, balls)
@@ -145,9 +145,9 @@ class RegionPublisher:
             message = Region.model_construct(epoch=self._epoch, tick=tick, node=node, balls=balls)
             return encode(message)
         except ProtocolError as error:
-            if not self._counters["regions too large"]:
+            if not self._counters["regions_too_large"]:
                 log.error("region %d is not told: %s", node, error)
-            self._counters["regions too large"] += 1
+            self._counters["regions_too_large"] += 1
             return None
 
     def _tell_holding(self, world: World, turn: int) -> None:
@@ -168,10 +168,10 @@ class RegionPublisher:
         except zenoh.ZError as error:
             self._not_published(error)
             return
-        self._counters["regions out"] += 1
-        self._counters["region bytes out"] += len(data)
+        self._counters["regions_out"] += 1
+        self._counters["region_bytes_out"] += len(data)
 
     def _not_published(self, error: zenoh.ZError) -> None:
-        if not self._counters["regions unpublished"]:
+        if not self._counters["regions_unpublished"]:
             log.error("a region cannot be published: %s", error)
-        self._counters["regions unpublished"] += 1
+        self._counters["regions_unpublished"] += 1

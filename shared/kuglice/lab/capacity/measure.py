@@ -119,7 +119,7 @@ def _measure(house: _House, crowd: Crowd, listeners: int, seconds: float) -> Row
         "listeners": listeners,
         "players": len(house.status().clients),
         "tick_rate": (after.tick - before.tick) / spent,
-        "late_ticks": after.counters["late ticks"] - before.counters["late ticks"],
+        "late_ticks": after.counters["late_ticks"] - before.counters["late_ticks"],
         "missed_permille": 1000.0 * heard.missed / expected if expected else 1000.0,
         "server_percent": 100.0 * server / spent,
         "routers_percent": 100.0 * routers / spent,

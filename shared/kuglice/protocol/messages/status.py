@@ -39,7 +39,10 @@ class SessionRefusal(BaseModel):
 
 
 class Status(Message):
-    """`sequence` of a client is the highest one seen of it, so that one that returns counts on from there."""
+    """`sequence` of a client is the highest one seen of it, so that one that returns counts on from there.
+
+    `counters`: what came in, went out and went wrong, by names like those of the fields. What never was is missing.
+    """
 
     kind: ClassVar[str] = "status"
     max_bytes: ClassVar[int] = 4 << 20
