@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import queue
 import signal
 import threading
 import time
@@ -20,9 +21,18 @@ def stop_on_signals() -> threading.Event:
     """
     stop = threading.Event()
     first: list[float] = []
+    # A handler interrupts the main thread anywhere, so also where that holds the lock of the event, which `set` would
+    # then wait for, for ever. This queue may be put into from a handler, and another thread may wait for the lock.
+    said: queue.SimpleQueue[int] = queue.SimpleQueue()
+
+    def heed() -> None:
+        said.get()
+        stop.set()
+
+    threading.Thread(target=heed, name="heed signals", daemon=True).start()
 
     def note(number: int, _: FrameType | None) -> None:
-        stop.set()
+        said.put(number)
         first.append(time.monotonic())
         if first[-1] - first[0] > ECHO_SECONDS:
             signal.signal(number, signal.SIG_DFL)
