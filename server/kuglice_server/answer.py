@@ -1,10 +1,10 @@
-"""What the server says when asked: about, view, history, status; on Zenoh's threads, beside the tick loop."""
+"""What the server says when asked: about, view, history, status; beside the tick loop."""
 
 from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Iterator
-from typing import Any
+from functools import partial
 
 import zenoh
 
@@ -27,18 +27,25 @@ from kuglice.protocol import (
     encode,
     split,
 )
+from kuglice_server.arrivals import Arrivals
 from kuglice_server.history import History as KeptHistory
+from kuglice_server.snapshots import Snapshots
 
 __all__ = ["Answers"]
 
 log = logging.getLogger(__name__)
 
+_Tell = Callable[[], Iterator[Message]]
+_Route = tuple[Callable[[Callable[[], None]], None], _Tell]
+"""What is told, and what runs the answering: at once, or elsewhere."""
+
 
 class Answers:
     """Queryables of one world.
 
-    `about`, `view` and `status` are called for fresh messages, `settle` to wait, for a moment, until it is clear
-    whether a name and session play; all must be safe to call from any thread.
+    `about`, `view` and `status` are called for fresh messages, `settled` for whether a name and session play or were
+    refused; all must be safe to call from any thread. Each key has a thread of its own, and what must be waited for
+    is waited for elsewhere: whoever measures how long an answer takes, or heals, never waits behind somebody's state.
     """
 
     def __init__(
@@ -50,60 +57,62 @@ class Answers:
         about: Callable[[], About],
         view: Callable[[], ViewAbout],
         status: Callable[[], Status],
-        settle: Callable[[str, str], None],
+        settled: Callable[[str, str], bool],
         history: KeptHistory,
     ) -> None:
         self._epoch = epoch
         self._about = about
         self._view = view
         self._status = status
-        self._settle = settle
         self._history = history
-        handlers: list[tuple[str, Callable[[zenoh.Query], Iterator[Message]]]] = [
-            (keys.about, self._answer_about),
-            (keys.view, self._answer_view),
-            (keys.status, self._answer_status),
-            (keys.history, self._answer_history),
+        self._arrivals = Arrivals(settled)
+        self._snapshots = Snapshots()
+        routes: list[tuple[str, Callable[[zenoh.Query], _Route]]] = [
+            (keys.about, lambda query: (_at_once, self._tell_about)),
+            (keys.view, lambda query: (_at_once, self._tell_view)),
+            (keys.status, self._status_route),
+            (keys.history, self._history_route),
         ]
-        self.declared: tuple[Declared, ...] = tuple(
-            session.declare_queryable(key, zenoh.handlers.Callback(self._guarded(key, handler)))
-            for key, handler in handlers
-        )
+        queryables = [
+            session.declare_queryable(key, zenoh.handlers.Callback(partial(self._take, key, route)))
+            for key, route in routes
+        ]
+        self.declared: tuple[Declared, ...] = (*queryables, self._arrivals, self._snapshots)
 
-    def _guarded(
-        self, key: str, handler: Callable[[zenoh.Query], Iterator[Message]]
-    ) -> Callable[[zenoh.Query], Any]:
-        def answer(query: zenoh.Query) -> None:
+    def ticked(self) -> None:
+        """Another tick was made."""
+        self._arrivals.ticked()
+
+    def _take(self, key: str, route: Callable[[zenoh.Query], _Route], query: zenoh.Query) -> None:
+        try:
+            run, tell = route(query)
+            run(partial(self._answer, query, key, tell))
+        except KugliceError as error:
             with query:
-                try:
-                    for message in handler(query):
-                        query.reply(key, encode(message))
-                except KugliceError as error:
-                    query.reply_err(encode(Refusal(epoch=self._epoch, reason=str(error)[:2000])))
-                except Exception as error:
-                    # An asker must not be left waiting, nor the answering thread die, because of a bug of
-                    # ours.
-                    log.exception("query on %s failed", key)
-                    query.reply_err(
-                        encode(Refusal(epoch=self._epoch, reason=f"internal error: {error}"[:2000]))
-                    )
+                query.reply_err(self._refusal(str(error)))
 
-        return answer
+    def _answer(self, query: zenoh.Query, key: str, tell: _Tell) -> None:
+        with query:
+            try:
+                for message in tell():
+                    query.reply(key, encode(message))
+            except KugliceError as error:
+                query.reply_err(self._refusal(str(error)))
+            except Exception as error:
+                # An asker must not be left waiting, nor the answering thread die, because of a bug of ours.
+                log.exception("query on %s failed", key)
+                query.reply_err(self._refusal(f"internal error: {error}"))
 
-    def _answer_about(self, query: zenoh.Query) -> Iterator[Message]:
-        about = self._about()
-        yield from split(compress(encode(about)), of="about", epoch=self._epoch, tick=about.tick)
+    def _refusal(self, reason: str) -> bytes:
+        return encode(Refusal(epoch=self._epoch, reason=reason[:2000]))
 
-    def _answer_view(self, query: zenoh.Query) -> Iterator[Message]:
-        yield self._view()
+    def _status_route(self, query: zenoh.Query) -> _Route:
+        if query.payload is None:
+            return _at_once, self._tell_status
+        arrival = decode(query.payload.to_bytes(), ArrivalRequest)
+        return partial(self._arrivals.answer, arrival.name, arrival.session), self._tell_status
 
-    def _answer_status(self, query: zenoh.Query) -> Iterator[Message]:
-        if query.payload is not None:
-            arrival = decode(query.payload.to_bytes(), ArrivalRequest)
-            self._settle(arrival.name, arrival.session)
-        yield self._status()
-
-    def _answer_history(self, query: zenoh.Query) -> Iterator[Message]:
+    def _history_route(self, query: zenoh.Query) -> _Route:
         payload = query.payload
         if payload is None:
             raise ProtocolError("history: a query needs a payload that says which ticks or which snapshot")
@@ -111,19 +120,38 @@ class Answers:
         whichever = isinstance(request, SnapshotRequest) and request.epoch == ANY_EPOCH
         if request.epoch != self._epoch and not whichever:
             raise ProtocolError(f"epoch {request.epoch}: this server runs epoch {self._epoch}")
+        if isinstance(request, SnapshotRequest):
+            return self._snapshots.answer, partial(self._tell_snapshot, request)
+        assert isinstance(request, TickRange)
+        return _at_once, partial(self._tell_ticks, request)
+
+    def _tell_about(self) -> Iterator[Message]:
         about = self._about()
-        if isinstance(request, TickRange):
-            ticks = self._history.ticks(request.first, request.end)
-            if not ticks:
-                raise ProtocolError(f"ticks {request.first} to {request.end - 1}: not kept, or not yet run")
-            stretch = History.of(self._epoch, ticks, hash_every=about.hash_every)
-            yield from split(compress(encode(stretch)), of="history", epoch=self._epoch, tick=ticks[0].tick)
-        elif isinstance(request, SnapshotRequest):
-            at = request.at
-            kept = self._history.fresh_snapshot() if at is None else self._history.snapshot(at)
-            if kept is None:
-                raise ProtocolError(
-                    "snapshot: none yet" if at is None else f"snapshot at or before {at}: not kept"
-                )
-            data = compress(kept.data, numbers=True)
-            yield from split(data, of="snapshot", epoch=self._epoch, tick=kept.tick)
+        yield from split(compress(encode(about)), of="about", epoch=self._epoch, tick=about.tick)
+
+    def _tell_view(self) -> Iterator[Message]:
+        yield self._view()
+
+    def _tell_status(self) -> Iterator[Message]:
+        yield self._status()
+
+    def _tell_ticks(self, request: TickRange) -> Iterator[Message]:
+        ticks = self._history.ticks(request.first, request.end)
+        if not ticks:
+            raise ProtocolError(f"ticks {request.first} to {request.end - 1}: not kept, or not yet run")
+        stretch = History.of(self._epoch, ticks, hash_every=self._about().hash_every)
+        yield from split(compress(encode(stretch)), of="history", epoch=self._epoch, tick=ticks[0].tick)
+
+    def _tell_snapshot(self, request: SnapshotRequest) -> Iterator[Message]:
+        at = request.at
+        kept = self._history.fresh_snapshot() if at is None else self._history.snapshot(at)
+        if kept is None:
+            raise ProtocolError(
+                "snapshot: none yet" if at is None else f"snapshot at or before {at}: not kept"
+            )
+        data = compress(kept.data, numbers=True)
+        yield from split(data, of="snapshot", epoch=self._epoch, tick=kept.tick)
+
+
+def _at_once(answer: Callable[[], None]) -> None:
+    answer()

@@ -44,8 +44,6 @@ log = logging.getLogger(__name__)
 HISTORY_SECONDS = 60
 EARLIEST_SECONDS = 2
 WAITING_MESSAGES = 4096
-SETTLE_SECONDS = 0.1
-"""How long one who has just shown itself is waited for; one who is not let in by then asks again."""
 HASHED_BALLS = 100_000
 """Up to so many balls every state's hash is told."""
 
@@ -117,18 +115,17 @@ class Server(Closing):
         )
         self._now = self.world.tick
         self._balls = self.world.count
-        self._ticked = threading.Condition()
-        answers = Answers(
+        self._answers = Answers(
             self._session,
             keys,
             epoch=self.epoch,
             about=self.about,
             view=self.view_about,
             status=self.status,
-            settle=self._settle,
+            settled=self._settled,
             history=self._history,
         )
-        self._declared: tuple[Declared, ...] = (inputs, tokens, *answers.declared, *publisher.declared)
+        self._declared: tuple[Declared, ...] = (inputs, tokens, *self._answers.declared, *publisher.declared)
 
     def run(
         self,
@@ -152,8 +149,7 @@ class Server(Closing):
             self._loop.tick()
             self._regions.turn(self.world)
             self._now, self._balls = self.world.tick, self.world.count
-            with self._ticked:
-                self._ticked.notify_all()
+            self._answers.ticked()
             ticks = None if ticks is None else ticks - 1
             if each_tick is not None:
                 each_tick(self)
@@ -168,15 +164,9 @@ class Server(Closing):
         with self._lock:
             return self._players.deserted
 
-    def _settle(self, name: str, session: str) -> None:
-        """Wait for the tick that lets the session in as `name`, or refuses it; only for a moment."""
-
-        def settled() -> bool:
-            with self._lock:
-                return self._players.settled(name, session)
-
-        with self._ticked:
-            self._ticked.wait_for(settled, SETTLE_SECONDS)
+    def _settled(self, name: str, session: str) -> bool:
+        with self._lock:
+            return self._players.settled(name, session)
 
     def about(self) -> About:
         """What a client must know to join. Safe from any thread."""
