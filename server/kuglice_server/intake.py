@@ -26,6 +26,7 @@ from kuglice import Scene, World
 from kuglice.errors import InputError, ProtocolError
 from kuglice.inputs import Input, check
 from kuglice.protocol import Ack, ClientInputs, Keys, SentInput, decode
+from kuglice_server.counters import Counters
 from kuglice_server.players import Player, Players
 
 __all__ = ["Intake"]
@@ -47,7 +48,7 @@ class Intake:
     """Not for two threads at once: the owner locks."""
 
     def __init__(
-        self, scene: Scene, players: Players, *, epoch: int, horizon: int, counters: Counter[str]
+        self, scene: Scene, players: Players, *, epoch: int, horizon: int, counters: Counters
     ) -> None:
         self._scene = scene
         self._players = players
@@ -66,24 +67,24 @@ class Intake:
         try:
             name, session = Keys.client_of(key)
         except ProtocolError:
-            self._counters["foreign"] += 1
+            self._counters.add("foreign")
             return
         player = self._players.find(name, session)
         if player is None:
-            self._counters["foreign"] += 1
+            self._counters.add("foreign")
             return
         self._read[name] += 1
         if self._read[name] > MESSAGES_PER_TICK:
-            self._counters["flooded"] += 1
+            self._counters.add("flooded")
             return
         try:
             message = decode(payload, ClientInputs)
         except ProtocolError as error:
-            self._counters["malformed"] += 1
+            self._counters.add("malformed")
             self._new_acks.append(Ack(player.number, None, None, 0, _reason(str(error))))
             return
         if message.epoch != self._epoch:
-            self._counters["other_epoch"] += 1
+            self._counters.add("other_epoch")
             return
         player.heard = max(player.heard or 0, min(message.heard, world.tick))
         for sent in message.inputs:
@@ -111,7 +112,7 @@ class Intake:
         player.remember(one.sequence, ack)
         player.accepted -= 1
         player.refused += 1
-        self._counters["left_out"] += 1
+        self._counters.add("left_out")
         self._new_acks.append(ack)
 
     def acks(self, tick: int, *, repeat: int) -> list[Ack]:
@@ -140,7 +141,7 @@ class Intake:
             tick = self._tick_for(player, max(sent.tick, world.tick), world.tick)
         except InputError as error:
             player.refused += 1
-            self._counters["refused"] += 1
+            self._counters.add("refused")
             ack = Ack(player.number, sent.given.sequence, None, early, _reason(str(error)))
             player.remember(sent.given.sequence, ack)
             self._new_acks.append(ack)
@@ -149,10 +150,10 @@ class Intake:
         self._used[player.number, tick] += 1
         player.last_tick = tick
         player.accepted += 1
-        self._counters["accepted"] += 1
+        self._counters.add("accepted")
         if early < 0:
             player.late += 1
-            self._counters["late"] += 1
+            self._counters.add("late")
         ack = Ack(player.number, one.sequence, tick, early, None)
         player.remember(one.sequence, ack)
         self._acting.setdefault(tick, []).append(ack)
@@ -172,7 +173,7 @@ class Intake:
         return tick
 
     def _again(self, player: Player, sequence: int, now: int, early: int, *, heard: int) -> None:
-        self._counters["duplicate"] += 1
+        self._counters.add("duplicate")
         known = player.outcomes.get(sequence)
         if known is None:
             reason = f"sequence {sequence}: {player.sequence} came before; its outcome is not remembered"

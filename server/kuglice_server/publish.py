@@ -6,12 +6,12 @@ stream: they come in many parts, all of which are needed.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Sequence
 
 import zenoh
 
 from kuglice.protocol import PART_BYTES, Ack, Keys, StretchedTick, Tick, encode, split
+from kuglice_server.counters import Counters
 from kuglice_server.repeats import Repeats
 
 __all__ = ["Publisher"]
@@ -25,7 +25,7 @@ class Publisher:
     """Puts ticks and snapshots; what a congested link cannot take is dropped, and heals at the client."""
 
     def __init__(
-        self, session: zenoh.Session, keys: Keys, *, epoch: int, rate: float, counters: Counter[str]
+        self, session: zenoh.Session, keys: Keys, *, epoch: int, rate: float, counters: Counters
     ) -> None:
         self._epoch = epoch
         self._counters = counters
@@ -69,14 +69,14 @@ class Publisher:
         # The stub says bool.
         if not self._snapshot.matching_status.matching:  # type: ignore[attr-defined]
             return
-        self._counters["snapshots_out"] += 1
+        self._counters.add("snapshots_out")
         for part in split(data, of="snapshot", epoch=self._epoch, tick=tick):
             self._put(self._snapshot, encode(part))
 
     def _put(self, publisher: zenoh.Publisher, data: bytes) -> None:
         publisher.put(data)
-        self._counters["messages_out"] += 1
-        self._counters["bytes_out"] += len(data)
+        self._counters.add("messages_out")
+        self._counters.add("bytes_out", len(data))
 
 
 def _size(ack: Ack) -> int:

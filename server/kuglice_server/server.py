@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 import threading
 import time
-from collections import Counter
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
@@ -26,6 +25,7 @@ from kuglice.protocol import (
     server_configuration,
 )
 from kuglice_server.answer import Answers
+from kuglice_server.counters import Counters
 from kuglice_server.epoch import new_epoch
 from kuglice_server.history import History
 from kuglice_server.intake import Intake
@@ -56,7 +56,7 @@ class Server(Closing):
         self.world = World(scene, threads=settings.threads)
         self.epoch = new_epoch()
         self.rate = settings.rate if settings.rate is not None else scene.tick_rate
-        self.counters: Counter[str] = Counter()
+        self.counters = Counters()
         self._snapshot_every = settings.snapshot_every or max(1, round(self.rate))
         self._hash_every = settings.hash_every or (
             1 if self.world.count <= HASHED_BALLS else max(1, round(self.rate))
@@ -210,7 +210,7 @@ class Server(Closing):
                 balls=self._balls,
                 clients=self._players.status(),
                 refusals=self._players.refusals(),
-                counters={**self.counters, "late_ticks": self._schedule.late_ticks},
+                counters={**self.counters.all(), "late_ticks": self._schedule.late_ticks},
                 seconds_lost=self._schedule.seconds_lost,
                 worst_lateness=self._schedule.worst_lateness,
             )

@@ -16,6 +16,7 @@ from kuglice.errors import InputError, ProtocolError, StepError
 from kuglice.inputs import Input, pack
 from kuglice.protocol import MAX_TOLD_TICKS, Keys, StretchedTick
 from kuglice_server.attempts import Attempt, attempts
+from kuglice_server.counters import Counters
 from kuglice_server.history import History, KeptSnapshot
 from kuglice_server.intake import Intake
 from kuglice_server.players import Players
@@ -32,7 +33,7 @@ REPEATED_ACKS = 6
 
 
 class TickLoop:
-    """Owns the world. `lock` guards players, intake and counters, which the answering threads read too."""
+    """Owns the world. `lock` guards players and intake, which the answering threads read too."""
 
     def __init__(
         self,
@@ -46,7 +47,7 @@ class TickLoop:
         inputs: zenoh.Subscriber[Any],
         snapshot_every: int,
         hash_every: int,
-        counters: Counter[str],
+        counters: Counters,
         lock: threading.Lock,
         record: Record | None,
     ) -> None:
@@ -99,7 +100,7 @@ class TickLoop:
             try:
                 who = Keys.client_of(str(sample.key_expr))
             except ProtocolError:
-                self._counters["foreign"] += 1
+                self._counters.add("foreign")
                 continue
             if sample.kind == zenoh.SampleKind.PUT:
                 self._players.arrive(*who)
@@ -109,8 +110,8 @@ class TickLoop:
     def _take_inputs(self) -> None:
         while (sample := self._inputs.try_recv()) is not None:
             data = sample.payload.to_bytes()
-            self._counters["messages_in"] += 1
-            self._counters["bytes_in"] += len(data)
+            self._counters.add("messages_in")
+            self._counters.add("bytes_in", len(data))
             if sample.kind == zenoh.SampleKind.DELETE:
                 self._say_goodbye(str(sample.key_expr))
             else:
@@ -120,7 +121,7 @@ class TickLoop:
         try:
             self._players.leave(*Keys.client_of(key))
         except ProtocolError:
-            self._counters["foreign"] += 1
+            self._counters.add("foreign")
 
     def _with_room(self, authored: list[Input], inputs: list[Input]) -> list[Input]:
         inputs = _ordered(inputs)
@@ -156,8 +157,8 @@ class TickLoop:
         with self._lock:
             for one in inputs:
                 self._intake.left_out(tick, one, f"left out: {failed}")
-            self._counters["removed"] += extra.pop("remove", 0)
-            self._counters["released"] += extra.total()
+            self._counters.add("removed", extra.pop("remove", 0))
+            self._counters.add("released", extra.total())
 
     def _guarded(self, publish: Callable[[], None]) -> None:
         try:
@@ -165,7 +166,7 @@ class TickLoop:
         except (zenoh.ZError, ProtocolError) as error:
             if not self._counters["unpublished"]:
                 log.error("tick %d cannot be published: %s", self._world.tick, error)
-            self._counters["unpublished"] += 1
+            self._counters.add("unpublished")
 
 
 def _ordered(inputs: list[Input]) -> list[Input]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import heapq
 import math
 import random
-from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import count
@@ -17,6 +16,7 @@ from kuglice.lab.network.line import Line
 from kuglice.protocol import Ack, ClientInputs, Keys, StretchedTick, Tick, decode, encode
 from kuglice_client.clock import Clock
 from kuglice_client.outbox import Outbox
+from kuglice_server.counters import Counters
 from kuglice_server.intake import Intake
 from kuglice_server.players import Players
 from server.small_arena import small_arena
@@ -63,7 +63,7 @@ class Simulation:
     ) -> None:
         scene = small_arena()
         players = Players(scene, grace=300)
-        self._intake = Intake(scene, players, epoch=EPOCH, horizon=120, counters=Counter())
+        self._intake = Intake(scene, players, epoch=EPOCH, horizon=120, counters=Counters())
         self._world = World(scene)
         self._players = players
         players.arrive("ana", "s1")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import struct
-from collections import Counter
 
 import msgpack
 import pytest
@@ -15,6 +14,7 @@ from kuglice.inputs import Attract, Input, Join, Kick, Leave, Remove, Spawn, Thr
 from kuglice.protocol import PROTOCOL_VERSION, Ack, ClientInputs, Keys, SentInput, encode
 from kuglice.protocol.compact import RecordWriter
 from kuglice.protocol.varint import write_signed, write_varint
+from kuglice_server.counters import Counters
 from kuglice_server.intake import MESSAGES_PER_TICK, Intake
 from kuglice_server.players import Players
 from server.small_arena import small_arena
@@ -33,7 +33,7 @@ class Desk:
         scene = small_arena(per_tick=per_tick)
         self.world = World(scene)
         players = Players(scene, grace=300)
-        self.counters: Counter[str] = Counter()
+        self.counters = Counters()
         self.told: list[Ack] = []
         self.intake = Intake(scene, players, epoch=EPOCH, horizon=HORIZON, counters=self.counters)
         players.arrive("ana", SESSION)
@@ -190,7 +190,7 @@ def test_from_nobody_who_is_here_it_is_counted(desk):
 def test_from_another_session_of_a_name_that_plays_it_is_counted(desk):
     payload = encode(ClientInputs(epoch=EPOCH, heard=0, inputs=[SentInput(2, Thrust(x=1, y=0, sequence=1))]))
     assert desk.raw(payload, session="s2") == []
-    assert desk.counters == {"foreign": 1}
+    assert desk.counters.all() == {"foreign": 1}
     assert [desk.step() for _ in range(3)] == [[], [], []]
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from concurrent.futures import Executor, Future
 
 import numpy as np
@@ -24,6 +23,7 @@ from kuglice.protocol import (
     server_configuration,
 )
 from kuglice_server import Server, ServerSettings
+from kuglice_server.counters import Counters
 from kuglice_server.regions import RegionPublisher, choose_terms
 
 KEYS = Keys("test")
@@ -60,7 +60,7 @@ class Wire:
     def __init__(self, world: kg.World, every: int = 1, teller: Executor | None = None) -> None:
         endpoint = free_endpoint()
         self.world = world
-        self.counters: Counter[str] = Counter()
+        self.counters = Counters()
         self.terms = choose_terms(world, rate=10.0)
         self.nodes = Nodes(world.scene.box, self.terms.depth)
         self.packer = self.terms.packer(world.scene.box)

@@ -145,5 +145,5 @@ def _figures(running: Server) -> dict[str, Any]:
         "late_ticks": status.counters["late_ticks"],
         "seconds_lost": status.seconds_lost,
         "worst_lateness_ms": 1000 * status.worst_lateness,
-        **dict(sorted(running.counters.items())),
+        **dict(sorted(running.counters.all().items())),
     }

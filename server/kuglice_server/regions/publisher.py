@@ -17,7 +17,6 @@ stream then cost 29 % of a core instead of 15, and miss messages.
 from __future__ import annotations
 
 import logging
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor, Future
 
@@ -26,6 +25,7 @@ import zenoh
 from kuglice import World
 from kuglice.errors import ProtocolError
 from kuglice.protocol import Holding, Keys, Region, RegionTerms, encode
+from kuglice_server.counters import Counters
 from kuglice_server.regions.audience import Audience
 from kuglice_server.regions.watch import Watch, Watched
 
@@ -52,7 +52,7 @@ class RegionPublisher:
         epoch: int,
         world: World,
         every: int,
-        counters: Counter[str],
+        counters: Counters,
         teller: Executor,
     ) -> None:
         self._epoch = epoch
@@ -97,7 +97,7 @@ class RegionPublisher:
         self._tell_holding(world, turn)
         if self._told is not None:
             if not self._told.done():
-                self._counters["region_rounds_left_out"] += 1
+                self._counters.add("region_rounds_left_out")
                 return
             # What went wrong beside the tick goes wrong here.
             self._told.result()
@@ -114,7 +114,7 @@ class RegionPublisher:
     def _tell(self, world: World, due: list[Watched], turn: int) -> None:
         nodes = sorted({one.node for one in due})
         packed, left_out = world.regions(self._packer, nodes)
-        self._counters["balls_not_told"] += left_out
+        self._counters.add("balls_not_told", left_out)
         balls = dict(zip(nodes, packed, strict=True))
         worth = [one for one in due if self._worth_telling(one, balls[one.node], turn)]
         self._told = self._teller.submit(self._put_all, world.tick, worth, balls)
@@ -147,7 +147,7 @@ class RegionPublisher:
         except ProtocolError as error:
             if not self._counters["regions_too_large"]:
                 log.error("region %d is not told: %s", node, error)
-            self._counters["regions_too_large"] += 1
+            self._counters.add("regions_too_large")
             return None
 
     def _tell_holding(self, world: World, turn: int) -> None:
@@ -168,10 +168,10 @@ class RegionPublisher:
         except zenoh.ZError as error:
             self._not_published(error)
             return
-        self._counters["regions_out"] += 1
-        self._counters["region_bytes_out"] += len(data)
+        self._counters.add("regions_out")
+        self._counters.add("region_bytes_out", len(data))
 
     def _not_published(self, error: zenoh.ZError) -> None:
         if not self._counters["regions_unpublished"]:
             log.error("a region cannot be published: %s", error)
-        self._counters["regions_unpublished"] += 1
+        self._counters.add("regions_unpublished")
