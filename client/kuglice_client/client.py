@@ -16,12 +16,10 @@ from kuglice.errors import JoinError
 from kuglice.inputs import Input
 from kuglice.protocol import Keys
 from kuglice.study.recorder import StudyRecorder
-from kuglice_client.datagram_watch import DatagramWatch
 from kuglice_client.join import Joined, find_world, join
-from kuglice_client.link import Link
+from kuglice_client.link import DatagramWatch, Link, Renewal, Waiting
 from kuglice_client.pace import judge_pace, step_seconds
 from kuglice_client.prediction import Floats, Ids
-from kuglice_client.renewal import Renewal
 from kuglice_client.replica import Replica
 from kuglice_client.run_loop import Frames, run_loop
 from kuglice_client.screen import Screen
@@ -64,13 +62,14 @@ class Client(Closing):
         self.renewal = Renewal(self.link, DatagramWatch(self.link))
         try:
             self._study = None if settings.study is None else StudyRecorder(settings.study)
-            world = settings.world or find_world(self.link, deadline=deadline, stop=self.stop)
+            waiting = Waiting(self.link, deadline=deadline, stop=self.stop)
+            world = settings.world or find_world(waiting)
             self._keys = Keys(world)
             # First the stream, then the rest: what happens while we join is in its buffer.
             self.link.listen(self._keys, snapshots=settings.check_snapshots)
             if settings.name is not None:
                 self.link.show(settings.name, self._session)
-            self._enter(self._join(deadline), deadline)
+            self._enter(self._join(waiting), deadline)
         except BaseException:
             self.close()
             raise
@@ -142,7 +141,17 @@ class Client(Closing):
 
     def summary(self) -> dict[str, Any]:
         """What this session was like, as values for JSON."""
-        return summarise(self, seconds=time.monotonic() - self._joined_at)
+        return summarise(
+            self.replica,
+            self.screen,
+            self.link,
+            self.totals,
+            name=self.settings.name,
+            renewals=self.renewal.renewals,
+            joined_after=self.joined_after,
+            step_seconds=self.step_seconds,
+            seconds=time.monotonic() - self._joined_at,
+        )
 
     def moment(self, alpha: float, *, nodes: bool = False) -> Moment:
         """What is to be seen: `alpha` of the way from the last but one predicted state to the last."""
@@ -160,9 +169,9 @@ class Client(Closing):
             self._study.close()
         return self.link.close(timeout, linger=self._linger)
 
-    def _join(self, deadline: float) -> Joined:
+    def _join(self, waiting: Waiting) -> Joined:
         who = None if self.settings.name is None else (self.settings.name, self._session)
-        return join(self.link, self._keys, who, deadline=deadline, stop=self.stop)
+        return join(waiting, self._keys, who)
 
     def _enter(self, joined: Joined, deadline: float) -> None:
         """Begin in a world that was just joined, for the first time or after a restart of the server."""
@@ -198,7 +207,8 @@ class Client(Closing):
     def _rejoin(self, epoch: int) -> None:
         """A message of another run of the server came: see which one runs now."""
         deadline = time.monotonic() + self.settings.wait
-        joined, ours = self._join(deadline), self.replica.joined.epoch
+        waiting = Waiting(self.link, deadline=deadline, stop=self.stop)
+        joined, ours = self._join(waiting), self.replica.joined.epoch
         if len(self._other_epochs) >= KNOWN_EPOCHS:
             self._other_epochs.clear()
         if joined.epoch == ours:

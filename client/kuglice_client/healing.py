@@ -6,9 +6,8 @@ import logging
 
 from kuglice.errors import JoinError, ProtocolError
 from kuglice.protocol import History, Keys, SnapshotRequest, TickRange, Whole, decode
-from kuglice_client.ask import Asked
 from kuglice_client.follow import Follower
-from kuglice_client.link import Link
+from kuglice_client.link import Asked, Link
 from kuglice_client.reconcile import Reconciler
 
 __all__ = ["Healing"]

@@ -6,8 +6,6 @@ snapshot and the first buffered tick is in the server's history, and everything 
 
 from __future__ import annotations
 
-import logging
-import threading
 import time
 from dataclasses import dataclass
 
@@ -23,16 +21,10 @@ from kuglice.protocol import (
     Status,
     decode,
 )
-from kuglice_client.ask import Asked
-from kuglice_client.link import Link
+from kuglice_client.link import Asked, NotYetError, Waiting
 
-__all__ = ["Joined", "find_world", "join", "patience"]
+__all__ = ["Joined", "find_world", "join"]
 
-log = logging.getLogger(__name__)
-
-RETRY_SECONDS = 0.03
-ANSWER_SECONDS = 5.0
-LEAST_ANSWER_SECONDS = 1.0
 SNAPSHOT_SECONDS = 30.0
 """For a state to arrive: a large one takes its time on a thin link."""
 
@@ -61,69 +53,47 @@ class Joined:
     """When `about`, with the tick that it was told at, had come; in seconds of the monotonic clock."""
 
 
-def find_world(link: Link, *, deadline: float, stop: threading.Event) -> str:
+def find_world(waiting: Waiting) -> str:
     """Name of the only world that is served here. Raises JoinError if there is none, or more than one."""
-    while True:
+    link = waiting.link
+
+    def attempt() -> list[bytes]:
         try:
-            replies = link.ask(ANY_STATUS, None, timeout=patience(deadline)).wait(stop)
-            break
-        except JoinError:
-            _pause(
-                link,
-                deadline,
-                stop,
-                why=f"no world is served at {link.endpoints}: is the server behind it running?",
-            )
+            return link.ask(ANY_STATUS, None, timeout=waiting.answer_seconds).wait(waiting.stop)
+        except JoinError as error:
+            raise NotYetError(
+                f"no world is served at {link.endpoints}: is the server behind it running?"
+            ) from error
+
+    replies = waiting.until_done(attempt)
     worlds = sorted({decode(reply, Status).world for reply in replies})
     if len(worlds) > 1:
         raise JoinError(f"worlds {', '.join(worlds)} are served here: say which one with --world")
     return worlds[0]
 
 
-def join(
-    link: Link,
-    keys: Keys,
-    who: Who | None,
-    *,
-    deadline: float,
-    stop: threading.Event,
-) -> Joined:
+def join(waiting: Waiting, keys: Keys, who: Who | None) -> Joined:
     """Join as the client `who`, whose liveliness token is declared already, or as a spectator (None).
 
     Raises JoinError at the deadline, when refused, or when this build would step to other bits than the
     server.
     """
-    while True:
-        try:
-            return _attempt(link, keys, who, deadline=deadline, stop=stop)
-        except _NotYetError as error:
-            log.debug("not yet: %s", error)
-            _pause(link, deadline, stop, why=str(error))
+    return waiting.until_done(lambda: _attempt(waiting, keys, who))
 
 
-class _NotYetError(JoinError):
-    """A reason that time may heal."""
-
-
-def _attempt(
-    link: Link,
-    keys: Keys,
-    who: Who | None,
-    *,
-    deadline: float,
-    stop: threading.Event,
-) -> Joined:
+def _attempt(waiting: Waiting, keys: Keys, who: Who | None) -> Joined:
+    link, stop = waiting.link, waiting.stop
     asked_at = time.monotonic()
-    asked_about = link.ask(keys.about, None, timeout=patience(deadline))
+    asked_about = link.ask(keys.about, None, timeout=waiting.answer_seconds)
     # At once and not in turn: on a long way every question costs a round trip, and a state takes several.
     asked_snapshot = link.ask(
         keys.history, SnapshotRequest(epoch=ANY_EPOCH, at=None), timeout=SNAPSHOT_SECONDS
     )
-    asked_number = None if who is None else _ask_number(link, keys, who, deadline=deadline)
+    admission = None if who is None else _Admission(waiting, keys, who)
     try:
         about = decode(asked_about.wait_whole(stop).data, About)
     except JoinError as error:
-        raise _NotYetError(f"world {keys.world} at {link.endpoints}: {error}") from error
+        raise NotYetError(f"world {keys.world} at {link.endpoints}: {error}") from error
     except ProtocolError as error:
         raise JoinError(f"{keys.about}: {error}") from error
     told_at = time.monotonic()
@@ -133,16 +103,14 @@ def _attempt(
             f"step version {about.step_version} of the server (kuglice {about.version}): this client has "
             f"{_core.STEP_VERSION} and would compute other bits"
         )
-    number, sequence = None, 0
-    if who is not None and asked_number is not None:
-        number, sequence = _number(link, keys, who, asked_number, deadline=deadline, stop=stop)
+    number, sequence = (None, 0) if admission is None else admission.wait()
     try:
         snapshot = asked_snapshot.wait_whole(stop)
     except JoinError as error:
-        raise _NotYetError(str(error)) from error
+        raise NotYetError(str(error)) from error
     state_seconds = time.monotonic() - asked_at
     if snapshot.epoch != about.epoch:
-        raise _NotYetError(f"epoch {about.epoch} is over, {snapshot.epoch} has begun")
+        raise NotYetError(f"epoch {about.epoch} is over, {snapshot.epoch} has begun")
     try:
         scene = Scene.from_message(about.scene)
         model = Model.from_message(about.model)
@@ -154,48 +122,36 @@ def _attempt(
     )
 
 
-def _number(
-    link: Link,
-    keys: Keys,
-    who: Who,
-    asked: Asked,
-    *,
-    deadline: float,
-    stop: threading.Event,
-) -> tuple[int, int]:
-    name, session = who
-    while True:
-        try:
-            status = decode(asked.wait(stop)[0], Status)
-        except (JoinError, ProtocolError) as error:
-            raise _NotYetError(str(error)) from error
-        for refusal in status.refusals:
-            if (refusal.name, refusal.session) == who:
-                raise JoinError(f"client {name}: {refusal.reason}")
-        here = status.clients.get(name)
-        if here is not None and here.session == session:
-            return here.number, here.sequence
-        why = "the server has not let it in"
-        if here is not None and here.away:
-            why = "another session plays it, whose link is cut: the server still waits for that one"
-        _pause(link, deadline, stop, why=f"client {name}: {why}")
-        asked = _ask_number(link, keys, who, deadline=deadline)
+class _Admission:
+    """Asked for when made: a number under which to play."""
 
+    def __init__(self, waiting: Waiting, keys: Keys, who: Who) -> None:
+        self._waiting = waiting
+        self._key = keys.status
+        self._who = who
+        self._asked = self._ask()
 
-def _ask_number(link: Link, keys: Keys, who: Who, *, deadline: float) -> Asked:
-    name, session = who
-    request = ArrivalRequest(epoch=ANY_EPOCH, name=name, session=session)
-    return link.ask(keys.status, request, timeout=patience(deadline))
+    def wait(self) -> tuple[int, int]:
+        """Number, and the last sequence number that the server saw. Raises JoinError if refused, NotYetError."""
+        name, session = self._who
+        while True:
+            try:
+                status = decode(self._asked.wait(self._waiting.stop)[0], Status)
+            except (JoinError, ProtocolError) as error:
+                raise NotYetError(str(error)) from error
+            for refusal in status.refusals:
+                if (refusal.name, refusal.session) == self._who:
+                    raise JoinError(f"client {name}: {refusal.reason}")
+            here = status.clients.get(name)
+            if here is not None and here.session == session:
+                return here.number, here.sequence
+            why = "the server has not let it in"
+            if here is not None and here.away:
+                why = "another session plays it, whose link is cut: the server still waits for that one"
+            self._waiting.pause(why=f"client {name}: {why}")
+            self._asked = self._ask()
 
-
-def patience(deadline: float) -> float:
-    """Seconds to wait for one answer: until the deadline, but a second at least, and not for ever."""
-    return max(LEAST_ANSWER_SECONDS, min(ANSWER_SECONDS, deadline - time.monotonic()))
-
-
-def _pause(link: Link, deadline: float, stop: threading.Event, why: str) -> None:
-    if stop.wait(RETRY_SECONDS):
-        raise JoinError("stopped while joining")
-    if time.monotonic() > deadline:
-        raise JoinError(why)
-    link.revive()
+    def _ask(self) -> Asked:
+        name, session = self._who
+        request = ArrivalRequest(epoch=ANY_EPOCH, name=name, session=session)
+        return self._waiting.link.ask(self._key, request, timeout=self._waiting.answer_seconds)

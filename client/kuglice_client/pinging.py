@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from kuglice.errors import JoinError
 from kuglice.protocol import Keys, TickRange
-from kuglice_client.ask import Asked
-from kuglice_client.link import Link
+from kuglice_client.link import Asked, Link
 
 __all__ = ["Pinging"]
 

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from kuglice_client.totals import Figure
-
-if TYPE_CHECKING:
-    from kuglice_client.client import Client
-    from kuglice_client.replica import Replica
-    from kuglice_client.screen import Screen
+from kuglice_client.link import Link
+from kuglice_client.replica import Replica
+from kuglice_client.screen import Screen
+from kuglice_client.totals import Figure, Totals
 
 __all__ = ["figures", "summarise"]
 
@@ -41,55 +39,61 @@ def figures(replica: Replica, screen: Screen) -> dict[str, Figure]:
     }
 
 
-def summarise(client: Client, *, seconds: float) -> dict[str, Any]:
+def summarise(
+    replica: Replica,
+    screen: Screen,
+    link: Link,
+    totals: Totals,
+    *,
+    name: str | None,
+    renewals: int,
+    joined_after: float,
+    step_seconds: float,
+    seconds: float,
+) -> dict[str, Any]:
     """Values for JSON. `agreed`: every hash and every snapshot was the server's."""
-    replica = client.replica
-    joined = replica.joined
-    summed = client.totals.with_past(figures(replica, client.screen))
-    traffic = client.link.traffic
-    rates = traffic.per_second(seconds)
+    joined, confirmed = replica.joined, replica.follower.world
+    summed = totals.with_past(figures(replica, screen))
+    rates = link.traffic.per_second(seconds)
     return {
-        "name": client.settings.name,
+        "name": name,
         "number": joined.number,
         "world": joined.about.world,
         "epoch": joined.epoch,
-        "links": "+".join(client.link.kinds),
-        "link_renewals": client.renewal.renewals,
+        "links": "+".join(link.kinds),
+        "link_renewals": renewals,
         "seconds": seconds,
-        "joined_after_seconds": client.joined_after,
-        "final_tick": client.confirmed.tick,
-        "final_hash": f"{client.confirmed.state_hash:016x}",
+        "joined_after_seconds": joined_after,
+        "final_tick": confirmed.tick,
+        "final_hash": f"{confirmed.state_hash:016x}",
         "agreed": summed["hashes_checked"] > 0
         and summed["hash_mismatches"] == 0
         and summed["snapshot_mismatches"] == 0,
         **summed,
-        "messages_thrown_away": client.totals.messages_thrown_away,
-        "malformed_messages": client.link.malformed + client.totals.malformed_snapshots,
-        "rejoins": client.totals.rejoins,
+        "messages_thrown_away": totals.messages_thrown_away,
+        "malformed_messages": link.malformed + totals.malformed_snapshots,
+        "rejoins": totals.rejoins,
         "lead_ticks": replica.clock.lead,
         "ticks_behind": replica.follower.behind,
-        "step_milliseconds": 1000 * client.step_seconds,
+        "step_milliseconds": 1000 * step_seconds,
         "bytes_per_second_received": rates["received"],
         "bytes_per_second_ticks": rates.get("ticks", 0.0),
         "bytes_per_second_snapshots": rates.get("snapshots", 0.0),
         "bytes_per_second_sent": rates["sent"],
-        "bytes_joining": traffic.received["joining"],
-        "feel": _feel(client, summed, seconds),
+        "bytes_joining": link.traffic.received["joining"],
+        "feel": _feel(replica, screen, summed, seconds),
     }
 
 
-def _feel(client: Client, summed: dict[str, Figure], seconds: float) -> dict[str, Any]:
-    feel, correction, clock = client.screen.feel, client.screen.correction, client.replica.clock
+def _feel(replica: Replica, screen: Screen, summed: dict[str, Figure], seconds: float) -> dict[str, Any]:
+    feel, correction, clock = screen.feel, screen.correction, replica.clock
     accepted, rollbacks = summed["inputs_accepted"], summed["rollbacks"]
     return {
         "inputs": feel.inputs,
         "late_per_1000": 1000 * summed["inputs_late"] / accepted if accepted else None,
         "own_input_delay_ms": feel.own_input_delay(),
         "rollbacks_per_second": rollbacks / max(seconds, 1e-9),
-        "rollback_depth": {
-            "mean": summed["ticks_rerun"] / rollbacks if rollbacks else 0.0,
-            "max": summed["deepest_rollback"],
-        },
+        "rollback_depth": summed["ticks_rerun"] / rollbacks if rollbacks else 0.0,
         "correction_radii": {
             "mean": correction.mean,
             "worst": correction.worst,

@@ -12,7 +12,7 @@ import time
 from e2e.processes import until
 from kuglice.protocol import close_session, open_session, server_configuration
 from kuglice_client.join import find_world
-from kuglice_client.link import Link
+from kuglice_client.link import Link, Waiting
 
 DEADLINE_SECONDS = 30.0
 
@@ -24,7 +24,7 @@ def test_a_world_is_found_by_a_session_of_before_the_server_was_there(start, sce
     close_session(before, [])
     until(lambda: not link.kinds, what="the loss of the link")
     server = start("server", scene, "--listen", endpoint, "--json")
-    assert find_world(link, deadline=deadline, stop=threading.Event())
+    assert find_world(Waiting(link, deadline=deadline, stop=threading.Event()))
     assert link.kinds
     link.close(5.0)
     server.signal(2)

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import logging
-import threading
 import time
 
 from kuglice import _core
 from kuglice.errors import JoinError, ProtocolError
 from kuglice.protocol import Keys, ViewAbout, decode
-from kuglice_client.ask import Asked
-from kuglice_client.join import patience
-from kuglice_client.link import Link
+from kuglice_client.link import Asked, Link, NotYetError, Waiting
 
 __all__ = ["Inquiry"]
 
@@ -20,7 +17,6 @@ log = logging.getLogger(__name__)
 AGAIN_SECONDS = 1.0
 TIMEOUT_SECONDS = 1.0
 """What is asked into the void is not waited for any longer."""
-RETRY_SECONDS = 0.03
 
 
 class Inquiry:
@@ -32,16 +28,17 @@ class Inquiry:
         self._asked: Asked | None = None
         self._asked_at = time.monotonic()
 
-    def wait(self, deadline: float, stop: threading.Event) -> ViewAbout:
-        """The answer, asked for again until there is one. Raises JoinError at the deadline, or when `stop` is set."""
-        while True:
+    def wait(self, waiting: Waiting) -> ViewAbout:
+        """The answer, asked for until there is one. Raises JoinError if there is none in time, or it is no use."""
+
+        def attempt() -> ViewAbout:
+            asked = self._link.ask(self._keys.view, None, timeout=waiting.answer_seconds)
             try:
-                asked = self._link.ask(self._keys.view, None, timeout=patience(deadline))
-                return _checked(asked.wait(stop)[0])
+                return decode(asked.wait(waiting.stop)[0], ViewAbout)
             except (JoinError, ProtocolError) as error:
-                if time.monotonic() > deadline or stop.wait(RETRY_SECONDS):
-                    raise JoinError(f"world {self._keys.world} at {self._link.endpoints}: {error}") from error
-                self._link.revive()
+                raise NotYetError(f"world {self._keys.world} at {self._link.endpoints}: {error}") from error
+
+        return _checked(waiting.until_done(attempt))
 
     def ask(self, now: float) -> None:
         """Unless that was done just now."""
@@ -58,15 +55,14 @@ class Inquiry:
             if replies is None:
                 return None
             self._asked = None
-            return _checked(replies[0])
+            return _checked(decode(replies[0], ViewAbout))
         except (JoinError, ProtocolError) as error:
             log.debug("nobody says what runs now: %s", error)
             self._asked = None
             return None
 
 
-def _checked(reply: bytes) -> ViewAbout:
-    about = decode(reply, ViewAbout)
+def _checked(about: ViewAbout) -> ViewAbout:
     if about.step_version != _core.STEP_VERSION:
         raise JoinError(
             f"step version {about.step_version} of the server (kuglice {about.version}): this view has "

@@ -15,10 +15,8 @@ from kuglice.closing import Closing
 from kuglice.errors import ProtocolError
 from kuglice.protocol import Keys, Rectangle, ViewAbout
 from kuglice_client.correction import Correction
-from kuglice_client.datagram_watch import DatagramWatch
 from kuglice_client.join import find_world
-from kuglice_client.link import Link
-from kuglice_client.renewal import Renewal
+from kuglice_client.link import DatagramWatch, Link, Renewal, Waiting
 from kuglice_client.run_loop import Frames, run_loop
 from kuglice_client.view.accuracy import Accuracy
 from kuglice_client.view.inquiry import Inquiry
@@ -58,10 +56,11 @@ class View(Closing):
         self.link = Link(settings.connect, deadline=deadline, stop=self.stop)
         self.renewal = Renewal(self.link, DatagramWatch(self.link))
         try:
-            self._keys = Keys(settings.world or find_world(self.link, deadline=deadline, stop=self.stop))
+            waiting = Waiting(self.link, deadline=deadline, stop=self.stop)
+            self._keys = Keys(settings.world or find_world(waiting))
             self.subscriptions = Subscriptions(self.link.session, self._keys)
             self._inquiry = Inquiry(self.link, self._keys)
-            self._enter(self._inquiry.wait(deadline, self.stop))
+            self._enter(self._inquiry.wait(waiting))
         except BaseException:
             self.close()
             raise

@@ -125,7 +125,7 @@ def _figures(game: Game, outcome: Outcome) -> dict[str, Value]:
         "late_per_1000": 1000.0 * late / accepted if accepted else "",
         "lead_ticks": _mean(client["lead_ticks"] for client in acting),
         "rollbacks_per_second": _mean(client["rollbacks"] / client["seconds"] for client in acting),
-        "rollback_depth": _mean(_depth(client) for client in acting),
+        "rollback_depth": _mean(client["feel"]["rollback_depth"] for client in acting),
         "rollback_deepest": max(client["deepest_rollback"] for client in acting),
         "correction_worst_radii": max(client["worst_correction_radii"] for client in acting),
         "visible_mean_radii": _mean(client["feel"]["correction_radii"]["mean"] for client in acting),
@@ -168,11 +168,6 @@ def _delays(game: Game) -> dict[str, Value]:
 
 def _milliseconds(delays: Sequence[float], quantile: float) -> Value:
     return 1000.0 * float(np.quantile(delays, quantile)) if delays else ""
-
-
-def _depth(client: Mapping[str, Any]) -> float:
-    """Ticks run again per rollback."""
-    return client["ticks_rerun"] / client["rollbacks"] if client["rollbacks"] else 0.0
 
 
 def _desyncs(client: Mapping[str, Any]) -> int:

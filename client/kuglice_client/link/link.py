@@ -25,9 +25,9 @@ from kuglice.protocol import (
     open_links,
     wants_datagrams,
 )
-from kuglice_client.ask import Asked
-from kuglice_client.opening import Opening
-from kuglice_client.traffic import Traffic
+from kuglice_client.link.ask import Asked
+from kuglice_client.link.opening import Opening
+from kuglice_client.link.traffic import Traffic
 
 __all__ = ["Link"]
 
@@ -44,7 +44,7 @@ class Link:
     """Connects when made; raises JoinError if that fails until `deadline`, or when `stop` is set.
 
     Messages wait in rings that drop the oldest: a client that was away for long finds what is fresh, and asks
-    for the rest. After a cut it does not come back by itself: whoever made it opens it anew (renewal.py).
+    for the rest. After a cut it does not come back by itself: whoever made it opens it anew (renewal.py, waiting.py).
     """
 
     def __init__(self, connect: tuple[str, ...], *, deadline: float, stop: threading.Event) -> None:
@@ -123,6 +123,11 @@ class Link:
         if self._opening is None:
             self._opening = Opening(self._configuration)
 
+    def renew_if_lost(self) -> None:
+        """The same, if this session has no link any more."""
+        if not self.kinds:
+            self.begin_renewal()
+
     def renewed(self) -> bool:
         """Whether another session is open by now; then all that is said and asked goes over it, and the old one ends.
 
@@ -140,14 +145,6 @@ class Link:
             self.show(*self._who)
         close_session(old, reversed(declared), timeout=0.0)
         return True
-
-    def revive(self) -> None:
-        """Take another session as soon as one is open, where this one has lost its link.
-
-        For whoever waits for an answer, and has no time to look as long as renewal.py does.
-        """
-        if not self.renewed() and not self.kinds:
-            self.begin_renewal()
 
     def close(self, timeout: float, *, linger: float = 0.0) -> bool:
         """Leave. False if Zenoh did not finish within `timeout` seconds.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from kuglice_client.renewal import AGAIN_SECONDS, DATAGRAM_TRIES, Renewal
+from kuglice_client.link.renewal import AGAIN_SECONDS, DATAGRAM_TRIES, Renewal
 
 STEP = 0.05
 
@@ -34,6 +34,10 @@ class Link:
     def begin_renewal(self) -> None:
         self._opening = True
         self.begun += 1
+
+    def renew_if_lost(self) -> None:
+        if not self.kinds:
+            self.begin_renewal()
 
     def renewed(self) -> bool:
         opened, self._opening = self._opening, False

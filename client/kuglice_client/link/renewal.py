@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import logging
 
-from kuglice_client.datagram_watch import DatagramWatch
-from kuglice_client.link import Link
+from kuglice_client.link.datagram_watch import DatagramWatch
+from kuglice_client.link.link import Link
 
 __all__ = ["Renewal"]
 
@@ -53,8 +53,7 @@ class Renewal:
     def _judge(self, now: float, *, silent: bool, answered: bool) -> None:
         if silent and now >= self._look_at:
             self._look_at = now + LOOK_SECONDS
-            if not self._link.kinds:
-                self._link.begin_renewal()
+            self._link.renew_if_lost()
         if self._datagrams.up:
             self._tries = 0
         missing = self._datagrams.missing and self._tries < DATAGRAM_TRIES

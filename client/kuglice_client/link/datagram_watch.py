@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import time
 
-from kuglice_client.link import Link
+from kuglice_client.link.link import Link
 
 __all__ = ["DatagramWatch"]
 

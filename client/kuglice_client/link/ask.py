@@ -9,7 +9,7 @@ import zenoh
 
 from kuglice.errors import JoinError, ProtocolError
 from kuglice.protocol import Assembly, Message, Part, Refusal, Whole, decode, decompress, encode
-from kuglice_client.traffic import Traffic
+from kuglice_client.link.traffic import Traffic
 
 __all__ = ["Asked"]
 

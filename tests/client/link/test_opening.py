@@ -17,7 +17,7 @@ from kuglice.protocol import (
     open_session,
     server_configuration,
 )
-from kuglice_client.opening import STAGGER_SECONDS, TRIES, Opening
+from kuglice_client.link.opening import STAGGER_SECONDS, TRIES, Opening
 
 DEADLINE_SECONDS = 20.0
 
@@ -78,7 +78,7 @@ def test_a_try_that_ends_in_a_way_nobody_thought_of_makes_room_for_the_next(port
     def broken(configuration):
         raise RuntimeError("broken")
 
-    monkeypatch.setattr("kuglice_client.opening.open_session", broken)
+    monkeypatch.setattr("kuglice_client.link.opening.open_session", broken)
     monkeypatch.setattr(threading, "excepthook", lambda told: None)
     opening, now = Opening(configuration(port)), time.monotonic()
     for turn in range(1, 2 * TRIES):
