@@ -29,16 +29,19 @@ class Inquiry:
         self._asked_at = time.monotonic()
 
     def wait(self, waiting: Waiting) -> ViewAbout:
-        """The answer, asked for until there is one. Raises JoinError if there is none in time, or it is no use."""
+        """The answer, asked for until there is one.
 
-        def attempt() -> ViewAbout:
+        Raises JoinError if there is none in time, or the server speaks or steps otherwise.
+        """
+
+        def attempt() -> bytes:
             asked = self._link.ask(self._keys.view, None, timeout=waiting.answer_seconds)
             try:
-                return decode(asked.wait(waiting.stop)[0], ViewAbout)
-            except (JoinError, ProtocolError) as error:
+                return asked.wait(waiting.stop)[0]
+            except JoinError as error:
                 raise NotYetError(f"world {self._keys.world} at {self._link.endpoints}: {error}") from error
 
-        return _checked(waiting.until_done(attempt))
+        return self._read(waiting.until_done(attempt))
 
     def ask(self, now: float) -> None:
         """Unless that was done just now."""
@@ -47,25 +50,31 @@ class Inquiry:
             self._asked_at = now
 
     def answer(self) -> ViewAbout | None:
-        """What was asked, once; None if nothing was, or there is no answer yet, or none will come."""
+        """What was asked, once; None if nothing was, or there is no answer yet, or none will come.
+
+        Raises JoinError for a server that speaks or steps otherwise: looking on would be in vain.
+        """
         if self._asked is None:
             return None
         try:
             replies = self._asked.poll()
-            if replies is None:
-                return None
-            self._asked = None
-            return _checked(decode(replies[0], ViewAbout))
-        except (JoinError, ProtocolError) as error:
+        except JoinError as error:
             log.debug("nobody says what runs now: %s", error)
             self._asked = None
             return None
+        if replies is None:
+            return None
+        self._asked = None
+        return self._read(replies[0])
 
-
-def _checked(about: ViewAbout) -> ViewAbout:
-    if about.step_version != _core.STEP_VERSION:
-        raise JoinError(
-            f"step version {about.step_version} of the server (kuglice {about.version}): this view has "
-            f"{_core.STEP_VERSION} and would compute something else"
-        )
-    return about
+    def _read(self, reply: bytes) -> ViewAbout:
+        try:
+            about = decode(reply, ViewAbout)
+        except ProtocolError as error:
+            raise JoinError(f"{self._keys.view}: {error}") from error
+        if about.step_version != _core.STEP_VERSION:
+            raise JoinError(
+                f"step version {about.step_version} of the server (kuglice {about.version}): this view has "
+                f"{_core.STEP_VERSION} and would compute something else"
+            )
+        return about
