@@ -18,6 +18,10 @@ from kuglice_client.view.settings import ViewSettings
 __all__ = ["PartialReplica"]
 
 BALANCED_EVERY_SECONDS = 0.5
+SILENCE_SECONDS = 2.0
+"""Even of an empty region, and of players who do nothing, a server says once a second that it is so."""
+SILENCE_ROUNDS = 3.0
+"""Or as often as it tells anything, where that is more seldom."""
 
 
 class PartialReplica:
@@ -50,10 +54,10 @@ class PartialReplica:
         )
         left, bottom, right, top = self.nodes.rectangle(0)
         self._margin = min(right - left, top - bottom) / 2 if settings.margin is None else settings.margin
+        self._silence = max(SILENCE_SECONDS, SILENCE_ROUNDS / about.regions.rate)
         self._newest = about.tick
         self._balanced_at = now
-        self.heard_at = now
-        """When anything of this run came last."""
+        self._heard_at = now
         self.updates = 0
         self.balls_told = 0
 
@@ -68,6 +72,17 @@ class PartialReplica:
             return False
         self._balanced_at = now
         return self.interest.out_of_balance
+
+    def silent(self, now: float) -> bool:
+        """Whether nothing of this run has come for longer than a server that keeps its rate is silent."""
+        return now - self._heard_at > self._silence
+
+    def overdue(self, about: ViewAbout) -> bool:
+        """Whether the server, as it says now, has made more ticks than it is silent for: they did not get here.
+
+        One that is slower than it should be, or stands still, has nothing to tell, and its link may be well.
+        """
+        return about.tick - self._newest > self._silence * about.rate
 
     def hear(self, key: str, data: bytes, now: float) -> bool:
         """Take in a message. Whether it was of this run. Raises ProtocolError for what no server could say."""
@@ -86,7 +101,7 @@ class PartialReplica:
             self.updates += self.known.take(told)
             self.balls_told += len(told.id)
             tick = told.tick
-        self.heard_at = now
+        self._heard_at = now
         if tick > self._newest:
             self._newest = tick
             self.clock.heard(tick, now)

@@ -33,9 +33,6 @@ __all__ = ["View"]
 
 log = logging.getLogger(__name__)
 
-SILENCE_SECONDS = 2.0
-"""Even of an empty region, and of players who do nothing, a server says once a second that it is so."""
-
 
 class View(Closing):
     """Connects and subscribes when made; `run` looks until told to stop. A context manager. Raises JoinError.
@@ -73,7 +70,10 @@ class View(Closing):
         self._look()
 
     def turn(self, now: float) -> float:
-        """Take in what came and step up to now. Returns how far the drawn state is from one tick to the next."""
+        """Take in what came and step up to now. Returns how far the drawn state is from one tick to the next.
+
+        Raises JoinError if the server was restarted as one that cannot be followed.
+        """
         self._receive(now)
         self._heed_silence(now)
         alpha = self.replica.advance(now, self.correction)
@@ -144,12 +144,16 @@ class View(Closing):
                 self._inquiry.ask(now)
 
     def _heed_silence(self, now: float) -> None:
-        """It may mean that another server runs now, which is asked, or that the link is no more, which is renewed."""
-        silent = now - self.replica.heard_at > SILENCE_SECONDS
+        """It may mean that another server runs now, which is asked, or that the link is no more, which is renewed.
+
+        Raises JoinError if it is another server, which speaks or steps otherwise.
+        """
+        silent = self.replica.silent(now)
         if silent:
             self._inquiry.ask(now)
         about = self._inquiry.answer()
-        if self.renewal.turn(now, silent=silent, answered=about is not None):
+        goes_on = about is not None and self.replica.overdue(about)
+        if self.renewal.turn(now, silent=silent, answered=goes_on):
             self.subscriptions.go_over(self.link.session)
         if about is not None and about.epoch != self.replica.about.epoch:
             self.rejoins += 1
