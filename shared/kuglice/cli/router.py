@@ -6,12 +6,14 @@ from collections.abc import Iterable
 from typing import Annotated
 
 import typer
+import zenoh
 
 from kuglice.cli.logs import STDERR, log_to_stderr
 from kuglice.cli.stop import stop_on_signals
-from kuglice.errors import NetworkError
+from kuglice.errors import NetworkError, ProtocolError
 from kuglice.protocol import (
     check_endpoints,
+    client_configuration,
     close_session,
     open_session,
     refuse_exposed,
@@ -53,20 +55,27 @@ def router(
     check_endpoints((*ours, *theirs))
     if not insecure:
         refuse_exposed(ours)
-    _refuse_itself(ours, theirs)
     session = open_session(server_configuration(listen=ours, connect=theirs))
     try:
+        _refuse_itself(session, theirs)
         STDERR.print(f"router from {', '.join(theirs)} to {', '.join(ours)}", highlight=False)
         stop.wait()
     finally:
         close_session(session, [])
 
 
-def _refuse_itself(listen: Iterable[str], connect: Iterable[str]) -> None:
-    own = {endpoint.partition("/")[2].partition("?")[0] for endpoint in listen}
+def _refuse_itself(session: zenoh.Session, connect: Iterable[str]) -> None:
+    """Zenoh notices, and tries again for ever. One address has many names: who answers there says who it is."""
     for endpoint in connect:
-        if endpoint.partition("/")[2].partition("?")[0] in own:
+        try:
+            visitor = open_session(client_configuration([endpoint], timeout=0.0, reconnect=False))
+        except ProtocolError:
+            # Nobody is there yet, whom the router waits for.
+            continue
+        found = session.zid() in visitor.info.routers_zid()
+        close_session(visitor, [])
+        if found:
             raise NetworkError(
-                f"router: listens on {endpoint} and connects to it, which is itself; --connect must name the server "
-                "or another router"
+                f"router: whoever listens on {endpoint}, to which it connects, is the router itself; --connect must "
+                "name the server or another router"
             )
