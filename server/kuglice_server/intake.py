@@ -36,8 +36,10 @@ MESSAGES_PER_TICK = 16
 """Messages of one client that are read per tick; what is lost is sent again until acknowledged."""
 MAX_ACKS = 256
 """Outcomes per tick message; a client that does not hear of one asks again."""
-SOON = 8
+SOON = 30
 """Ticks that a client waits for an input to act before it would like to know whether it came at all."""
+PROMISES = 2
+"""Tick messages that tell of an input that acts later: when it does it is told anyway."""
 MAX_REASON = 160
 """Characters; keeps a tick message within one batch."""
 MAX_PER_TICK = 600
@@ -116,14 +118,17 @@ class Intake:
         self._new_acks.append(ack)
 
     def acks(self, tick: int, *, repeat: int) -> list[Ack]:
-        """Outcomes to publish with `tick`: of what acts in it, new ones, and those of the last `repeat` ticks again."""
+        """Outcomes to publish with `tick`: of what acts in it, new ones, and again refusals of the last `repeat`."""
         if self._new_acks:
             self._acks.append((tick, self._new_acks))
             self._new_acks = []
         while self._acks and self._acks[0][0] <= tick - repeat:
             self._acks.popleft()
         acting = self._acting.pop(tick, [])
-        return [ack for _, acks in self._acks for ack in acks][-MAX_ACKS:] + acting
+        told = [
+            ack for since, acks in self._acks for ack in acks if ack.tick is None or tick - since < PROMISES
+        ]
+        return told[-MAX_ACKS:] + acting
 
     def _take(self, player: Player, sent: SentInput, world: World, *, heard: int) -> None:
         early = sent.tick - world.tick

@@ -16,9 +16,10 @@ from kuglice_server.repeats import Repeats
 
 __all__ = ["Publisher"]
 
-ENVELOPE_BYTES = 21
+ENVELOPE_BYTES = 17
 """Of a tick message that has nothing to say but its hash."""
-ACK_BYTES = 24
+EARLY_BYTES = 1
+"""What an outcome takes that goes with the input itself."""
 
 
 class Publisher:
@@ -59,8 +60,9 @@ class Publisher:
 
     def message(self, recent: Sequence[StretchedTick], acks: Sequence[Ack], heard: Iterable[int]) -> Tick:
         """What `tick` publishes."""
-        acks = _fitting(acks, PART_BYTES - len(recent[-1].inputs))
-        rest = ENVELOPE_BYTES + sum(map(_size, acks))
+        newest = recent[-1]
+        acks = _fitting(acks, PART_BYTES - len(newest.inputs))
+        rest = ENVELOPE_BYTES + sum(EARLY_BYTES if ack.tick == newest.tick else ack.size for ack in acks)
         count = self._repeats.choose(recent, heard, rest=rest)
         return Tick.of(self._epoch, recent[-count:], acks)
 
@@ -79,15 +81,11 @@ class Publisher:
         self._counters.add("bytes_out", len(data))
 
 
-def _size(ack: Ack) -> int:
-    return 0 if ack.refused is None else ACK_BYTES + len(ack.refused.encode())
-
-
 def _fitting(acks: Sequence[Ack], room: int) -> list[Ack]:
     """As many as fit, newest first; who does not hear of an outcome asks again."""
     taken: list[Ack] = []
     for ack in reversed(acks):
-        room -= ACK_BYTES + _size(ack)
+        room -= ack.size
         if room < 0:
             break
         taken.append(ack)

@@ -13,8 +13,8 @@ from kuglice.protocol import MAX_TOLD_TICKS, StretchedTick, packed_size
 
 __all__ = ["DATAGRAM_BYTES", "Repeats"]
 
-BITS_PER_SECOND = 19_500
-"""Spent on the whole stream where that is enough, so that it stays below 20 kbit/s; the newest ticks are told
+BITS_PER_SECOND = 18_000
+"""Spent on the whole stream where that is enough, so that it stays well below 20 kbit/s; the newest ticks are told
 whatever they cost."""
 TOLD_ANYWAY = 2
 """The newest tick and the one before it: with 2 % of messages lost, 1 in 2,500 ticks is then asked for again."""

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import struct
+from collections import Counter
 
-import msgpack
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -15,7 +15,7 @@ from kuglice.protocol import PROTOCOL_VERSION, Ack, ClientInputs, Keys, SentInpu
 from kuglice.protocol.compact import RecordWriter
 from kuglice.protocol.varint import write_signed, write_varint
 from kuglice_server.counters import Counters
-from kuglice_server.intake import MESSAGES_PER_TICK, Intake
+from kuglice_server.intake import MESSAGES_PER_TICK, PROMISES, Intake
 from kuglice_server.players import Players
 from server.small_arena import small_arena
 
@@ -117,9 +117,18 @@ def test_twice_is_applied_once_and_told_again_only_to_who_has_heard_of_its_tick(
 
 
 def test_what_acts_much_later_is_told_at_once_too(desk):
-    (ack,) = desk.send((1, desk.world.tick + 30, Thrust(x=5, y=0)))
+    (ack,) = desk.send((1, desk.world.tick + 40, Thrust(x=5, y=0)))
     assert desk.told == [ack]
-    assert ack.tick == 31
+    assert ack.tick == 41
+
+
+def test_a_promise_is_told_less_often_than_a_refusal_which_nothing_else_tells(desk):
+    desk.send((1, desk.world.tick + 40, Thrust(x=5, y=0)), (2, 3, Thrust(x=51, y=0)))
+    for _ in range(REPEAT + 2):
+        desk.step()
+    told = Counter(ack.sequence for ack in desk.told)
+    # The message that brought them was answered once before the first of these steps, in the same tick.
+    assert (told[1], told[2]) == (PROMISES + 1, REPEAT + 1)
 
 
 def test_a_sequence_number_that_was_skipped_comes_too_late(desk):
@@ -162,12 +171,12 @@ def test_an_input_that_is_none_is_refused_with_its_message(desk, number, reason)
 
 
 def test_who_it_is_comes_from_the_key_not_from_what_it_says(desk):
-    out = bytearray((PROTOCOL_VERSION,))
+    out = bytearray((*b"i", PROTOCOL_VERSION))
     write_varint(out, EPOCH)
     write_varint(out, 1)
     write_signed(out, 1)
     RecordWriter(out).write(pack([Thrust(client=7, sequence=1, x=1.0, y=0.0)]))
-    (ack,) = desk.raw(msgpack.packb({"i": bytes(out)}))
+    (ack,) = desk.raw(bytes(out))
     assert ack.client == 1
     desk.step()
     assert [one.client for one in desk.step()] == [1]

@@ -13,7 +13,7 @@ KEPT_SHARE = 0.9
 """Of the budget: what is told grows and shrinks between two looks at it."""
 SPARE_SHARE = 0.75
 SMOOTHING = 0.2
-ENVELOPE_BYTES = 20
+ENVELOPE_BYTES = 16
 BALL_BYTES = 8
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import reprlib
+from collections.abc import Sequence
 from typing import Any, TypeVar
 
 import msgpack
@@ -21,14 +22,15 @@ _SHORT.maxstring = _SHORT.maxother = 80
 
 
 def encode(message: Message) -> bytes:
-    """A msgpack map: version `v`, kind, and the message's own fields; of one that is compact, only its bytes.
+    """A msgpack map: version `v`, kind, and the message's own fields; one that is compact has bytes of its own.
 
     Raises ProtocolError if it is too large.
     """
-    body = message.to_body()
-    if not isinstance(message, CompactMessage):
-        body = {"v": PROTOCOL_VERSION, **body}
-    data: bytes = msgpack.packb(body)
+    data: bytes = (
+        message.to_bytes()
+        if isinstance(message, CompactMessage)
+        else msgpack.packb({"v": PROTOCOL_VERSION, **message.to_body()})
+    )
     if len(data) > message.max_bytes:
         raise ProtocolError(
             f"message {message.kind!r}: {len(data)} bytes, at most {message.max_bytes} allowed"
@@ -42,11 +44,10 @@ def decode(data: bytes, *kinds: type[M]) -> M:
     bound = max(kind.max_bytes for kind in kinds)
     if len(data) > bound:
         raise ProtocolError(f"message {names}: {len(data)} bytes, at most {bound} allowed")
-    body = _unpack(data, names)
-    kind = next((kind for kind in kinds if _is(kind, body)), None)
-    version = body.pop("v", None)
-    if kind is not None and issubclass(kind, CompactMessage):
-        version = next(iter(body[kind.letter]), None)
+    compact = _compact_kind(data, kinds)
+    body = {} if compact is not None else _unpack(data, names)
+    kind = compact or next((kind for kind in kinds if _is(kind, body)), None)
+    version = body.pop("v", None) if compact is None else next(iter(data[1:2]), None)
     if version != PROTOCOL_VERSION:
         raise ProtocolError(
             f"message {names}: protocol version {_SHORT.repr(version)}, this side speaks {PROTOCOL_VERSION}"
@@ -57,7 +58,7 @@ def decode(data: bytes, *kinds: type[M]) -> M:
         raise ProtocolError(f"message {kind.kind!r}: {len(data)} bytes, at most {kind.max_bytes} allowed")
     try:
         if issubclass(kind, CompactMessage):
-            return kind.read(body[kind.letter][1:])
+            return kind.read(data[2:])
         del body["kind"]
         return kind.from_body(body)
     except ValidationError as error:
@@ -66,10 +67,15 @@ def decode(data: bytes, *kinds: type[M]) -> M:
         raise ProtocolError(f"message {kind.kind!r}: {error}") from error
 
 
+def _compact_kind(data: bytes, kinds: Sequence[type[M]]) -> type[M] | None:
+    # No msgpack map begins with a letter.
+    return next(
+        (kind for kind in kinds if issubclass(kind, CompactMessage) and data[:1] == kind.letter), None
+    )
+
+
 def _is(kind: type[Message], body: dict[str, Any]) -> bool:
-    if issubclass(kind, CompactMessage):
-        return body.keys() == {kind.letter} and isinstance(body[kind.letter], bytes)
-    return bool(body.get("kind") == kind.kind)
+    return not issubclass(kind, CompactMessage) and bool(body.get("kind") == kind.kind)
 
 
 def _unpack(data: bytes, names: str) -> dict[str, Any]:

@@ -32,6 +32,13 @@ class Ack(NamedTuple):
     early: int | None
     refused: Reason | None
 
+    @property
+    def size(self) -> int:
+        """Bytes that it takes in a message."""
+        out = bytearray()
+        write_ack(out, self)
+        return len(out)
+
 
 def write_ack(out: bytearray, ack: Ack) -> None:
     """Append it: a byte that says what is there, and that."""

@@ -35,7 +35,7 @@ class ClientInputs(CompactMessage):
     """
 
     kind: ClassVar[str] = "inputs"
-    letter: ClassVar[str] = "i"
+    letter: ClassVar[bytes] = b"i"
     max_bytes: ClassVar[int] = 16 << 10
 
     heard: TickNumber

@@ -8,7 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 __all__ = ["PROTOCOL_VERSION", "U64", "CompactMessage", "Message", "TickNumber"]
 
-PROTOCOL_VERSION = 3
+PROTOCOL_VERSION = 4
 """Raised by one when an old reader would misread a new message."""
 
 U64 = Annotated[int, Field(ge=0, lt=2**64)]
@@ -39,19 +39,18 @@ class Message(BaseModel):
 
 
 class CompactMessage(Message):
-    """One that goes out at every tick: the map holds a single value, bytes, and its key `letter` says the kind.
+    """One that goes out at every tick: a `letter` that says the kind, the protocol's version in a byte, the fields.
 
-    The first byte is the protocol's version. Words for keys would cost more than all that most of these messages
-    have to say.
+    A map and words for its keys would cost more than all that most of these messages have to say.
     """
 
-    letter: ClassVar[str]
+    letter: ClassVar[bytes]
 
-    def to_body(self) -> dict[str, Any]:
-        """As bytes."""
-        out = bytearray((PROTOCOL_VERSION,))
+    def to_bytes(self) -> bytes:
+        """All of it."""
+        out = bytearray((*self.letter, PROTOCOL_VERSION))
         self.write(out)
-        return {self.letter: bytes(out)}
+        return bytes(out)
 
     def write(self, out: bytearray) -> None:
         """Append the fields."""

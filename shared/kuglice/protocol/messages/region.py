@@ -23,7 +23,7 @@ class Region(CompactMessage):
     """
 
     kind: ClassVar[str] = "region"
-    letter: ClassVar[str] = "r"
+    letter: ClassVar[bytes] = b"r"
     max_bytes: ClassVar[int] = 1 << 20
 
     tick: TickNumber

@@ -33,7 +33,7 @@ class Tick(CompactMessage, Stretch):
     """
 
     kind: ClassVar[str] = "tick"
-    letter: ClassVar[str] = "t"
+    letter: ClassVar[bytes] = b"t"
     max_bytes: ClassVar[int] = 65_535
     max_record_bytes: ClassVar[int] = 4 << 20
 
