@@ -6,7 +6,6 @@ import logging
 import threading
 import time
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import zenoh
@@ -25,6 +24,7 @@ from kuglice.protocol import (
     server_configuration,
 )
 from kuglice_server.answer import Answers
+from kuglice_server.beside import Beside
 from kuglice_server.counters import Counters
 from kuglice_server.epoch import new_epoch
 from kuglice_server.history import History
@@ -82,7 +82,7 @@ class Server(Closing):
         region_every = max(1, round(self.rate / settings.region_rate))
         self._terms = choose_terms(self.world, rate=self.rate / region_every)
         self._reference_speed = reference_speed(scene)
-        self._teller = ThreadPoolExecutor(1, thread_name_prefix="regions")
+        self._teller = Beside("regions")
         self._regions = RegionPublisher(
             self._session,
             keys,
@@ -219,8 +219,8 @@ class Server(Closing):
         """Finish the record, leave the network. False if Zenoh did not finish within `timeout` seconds."""
         if self._record is not None:
             self._record.close()
-        self._teller.shutdown()
-        closed = close_session(self._session, (*self._declared, *self._regions.declared), timeout=timeout)
+        declared = (self._teller, *self._declared, *self._regions.declared)
+        closed = close_session(self._session, declared, timeout=timeout)
         if not closed:
             log.error("the network session did not close within %g s", timeout)
         return closed

@@ -14,6 +14,7 @@ from typing import Any
 
 import zenoh
 
+from kuglice.aside import aside
 from kuglice.errors import JoinError, ProtocolError
 from kuglice.protocol import close_session, nobody_answers, open_session
 
@@ -62,7 +63,7 @@ class Opening:
             self.under_way += 1
             self._begun_at = now
             self.tries += 1
-        threading.Thread(target=self._try, name="open zenoh session", daemon=True).start()
+        aside(self._try, "open zenoh session")
         return None
 
     def wait(self, deadline: float, stop: threading.Event) -> zenoh.Session:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Sequence
+from typing import NoReturn
 
+from kuglice.aside import under_way
 from kuglice.errors import KugliceError
 
 __all__ = ["main"]
@@ -19,7 +22,18 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Run one command. An error of this package is one line on stderr and exit code 2, never a traceback.
 
     Ctrl-C, where the command itself does not end in order on it, is exit code 130 and no word.
+
+    With the `arguments` of the process (None) a command that is done ends the process, whatever Zenoh still does.
     """
+    try:
+        _run(arguments)
+    except SystemExit as end:
+        if arguments is None and under_way():
+            _leave(end)
+        raise
+
+
+def _run(arguments: Sequence[str] | None) -> None:
     try:
         from kuglice.cli.app import build  # noqa: PLC0415 - other rooms import this package for its parts
 
@@ -35,3 +49,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
         raise SystemExit(REFUSED) from None
     except KeyboardInterrupt:
         raise SystemExit(INTERRUPTED) from None
+
+
+def _leave(end: SystemExit) -> NoReturn:
+    """What is not closed by now would be waited for: Zenoh's threads that answer are no daemons."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(end.code if isinstance(end.code, int) else int(end.code is not None))

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import json
+import logging
 import os
 import re
-import threading
 from collections.abc import Iterable, Sequence
 from typing import Any, Protocol
 
 import zenoh
 
+from kuglice.aside import aside
 from kuglice.errors import ProtocolError
 from kuglice.protocol.endpoints import as_written, locators
 
@@ -24,6 +25,8 @@ __all__ = [
     "open_session",
     "server_configuration",
 ]
+
+log = logging.getLogger(__name__)
 
 LEASE_MS = 2000
 """One that froze, or a link that is dead, is noticed after this by the other end: each one's own lease counts."""
@@ -149,11 +152,14 @@ def close_session(session: zenoh.Session, declared: Iterable[Declared], *, timeo
 
     def close() -> None:
         for entity in declared:
-            entity.undeclare()
+            try:
+                entity.undeclare()
+            except zenoh.ZError as error:
+                # Where the link is lost there is nobody to withdraw it from; the session is to be closed all the same.
+                log.debug("%s", error)
         session.close()  # type: ignore[no-untyped-call]
 
     # Closing is known to hang on a bad link, and then nothing but a thread of its own lets us go on.
-    thread = threading.Thread(target=close, name="close zenoh session", daemon=True)
-    thread.start()
+    thread = aside(close, "close zenoh session")
     thread.join(timeout)
     return not thread.is_alive()
