@@ -16,7 +16,7 @@ import pytest
 from e2e.processes import until
 from kuglice.lab.network import Conditions, ProxyLink
 from kuglice.protocol import close_session, open_session, server_configuration
-from kuglice_client.opening import TRIES
+from kuglice_client.link.opening import TRIES
 
 TELLING_SECONDS = 0.22
 """After this the signal used to make the process end just when a try was over. Any other time is right too."""
