@@ -23,6 +23,8 @@ POLL_SECONDS = 0.05
 START_SECONDS = 20.0
 RECORDING = "game.kuglice"
 STILLS = 4
+REFUSED = 2
+"""Status of a command that says, in its last line, what the user can put right."""
 
 
 @dataclass(frozen=True)
@@ -143,6 +145,8 @@ def _wait(
             # A client that disagreed with the server ends with 1, too, but says so: an outcome, not a failure.
             disagreed = process.code == 1 and name != "server" and _summary(settings, name).exists()
             if process.code not in (None, 0) and not disagreed:
+                if process.code == REFUSED:
+                    raise KugliceError(process.words().rpartition("kuglice: ")[2])
                 raise KugliceError(f"{name} failed with status {process.code}:\n{process.words()}")
         elapsed = time.monotonic() - began
         if elapsed > settings.patience:

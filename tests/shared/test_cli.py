@@ -76,6 +76,26 @@ def test_a_time_below_zero_is_refused(command):
     assert "--seconds" in shown.stderr
 
 
+@pytest.mark.parametrize(
+    ("command", "option", "value"),
+    [(["client"], "--wait", "-1"), (["client"], "--fps", "x7"), (["server", "arena"], "--threads", "-3")],
+    ids=["below", "no number", "of a server"],
+)
+def test_a_value_that_cannot_be_is_named_with_its_option(command, option, value):
+    refused = kuglice(*command, option, value)
+    assert refused.returncode == 2
+    assert f"Invalid value for '{option}': " in refused.stderr
+    assert value in refused.stderr.rpartition(option)[2]
+
+
+def test_a_bot_that_a_demo_cannot_have_is_refused_in_one_line(tmp_path):
+    refused = kuglice("demo", "--bot", "foo", "--no-film", "--out", str(tmp_path))
+    assert refused.returncode == 2
+    assert refused.stderr == (
+        "kuglice: bot 'foo': there is none of that name, only chaser, drifter, herder, orbiter\n"
+    )
+
+
 def test_what_a_client_cannot_draw_is_refused_before_it_connects():
     # Nobody listens there: whoever gets as far as to connect says so.
     nobody = ("client", "--connect", "tcp/127.0.0.1:9", "--wait", "0")
@@ -238,11 +258,11 @@ def test_what_cannot_be_is_told_before_anything_is_done(command, told, tmp_path,
 
 
 def test_a_place_that_cannot_be_written_is_one_line_and_exit_code_2(tmp_path):
-    taken = tmp_path / "taken"
-    taken.write_text("a file, and no directory")
-    shown = kuglice("bench", "--case", "each tick", "--repeats", "1", "--out", str(taken))
+    taken = tmp_path / "bench.json"
+    taken.mkdir()
+    shown = kuglice("bench", "--case", "each tick", "--repeats", "1", "--out", str(tmp_path))
     assert shown.returncode == 2
-    assert f"kuglice: {taken}: File exists\n" in shown.stderr
+    assert f"kuglice: {taken}: Is a directory\n" in shown.stderr
     assert "Traceback" not in shown.stderr
 
 

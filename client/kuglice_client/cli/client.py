@@ -16,6 +16,7 @@ from rich.status import Status
 from kuglice.cli.figures import print_figures, print_groups
 from kuglice.cli.logs import STDERR, log_to_stderr
 from kuglice.cli.stop import stop_on_signals
+from kuglice.cli.writable import writable_file, writable_folder
 from kuglice.extras import require
 from kuglice.protocol import DEFAULT_ENDPOINT
 from kuglice_client.bots import BOTS
@@ -96,13 +97,15 @@ def client(
     study: Annotated[
         Path | None,
         typer.Option(
-            help="Record what is seen, acted and confirmed, for `kuglice study`: up to 1 GB an hour."
+            callback=writable_file,
+            help="Record what is seen, acted and confirmed, for `kuglice study`: up to 1 GB an hour.",
         ),
     ] = None,
     desync_reports: Annotated[
         Path | None,
         typer.Option(
-            help="Write a JSON file per desync into this directory: first tick, balls, all differing bits."
+            callback=writable_folder,
+            help="Write a JSON file per desync into this directory: first tick, balls, all differing bits.",
         ),
     ] = None,
     summary_json: SummaryJson = None,

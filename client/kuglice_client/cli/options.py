@@ -8,16 +8,23 @@ from typing import Annotated, Any
 
 import typer
 
+from kuglice.cli.writable import writable, writable_file
+
 __all__ = ["AsJson", "FilmRate", "FilmStyle", "Render", "Seconds", "SummaryJson", "Wait", "write_summary"]
 
 Seconds = Annotated[
     float | None, typer.Option(min=0.0, help="Leave after this long. [default: on SIGINT or SIGTERM]")
 ]
 Wait = Annotated[float, typer.Option(min=0.0, help="Seconds to keep trying to join.")]
-Render = Annotated[Path | None, typer.Option(help="Film what is seen: .mp4, .webm, .gif, or frame-%05d.png.")]
+Render = Annotated[
+    Path | None,
+    typer.Option(callback=writable, help="Film what is seen: .mp4, .webm, .gif, or frame-%05d.png."),
+]
 FilmRate = Annotated[int, typer.Option(min=1, max=240, help="Frames per second of the film.")]
 FilmStyle = Annotated[str, typer.Option(help="discs or fluid.")]
-SummaryJson = Annotated[Path | None, typer.Option(help="Write the closing figures to this file too.")]
+SummaryJson = Annotated[
+    Path | None, typer.Option(callback=writable_file, help="Write the closing figures to this file too.")
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print the closing figures as JSON.")]
 
 

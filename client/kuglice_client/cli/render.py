@@ -16,6 +16,7 @@ from kuglice.cli.figures import print_figures
 from kuglice.cli.logs import STDERR
 from kuglice.cli.stop import stop_on_signals
 from kuglice.cli.threads import Threads
+from kuglice.cli.writable import writable
 from kuglice.errors import PictureError
 from kuglice.scenes import find
 from kuglice.world import World
@@ -36,7 +37,8 @@ def render(  # noqa: PLR0917 - options
     out: Annotated[
         Path,
         typer.Option(
-            help=f"Where to: {KINDS}, or a directory. frame-%05d.png has all frames, frame.png the last one."
+            callback=writable,
+            help=f"Where to: {KINDS}, or a directory. frame-%05d.png has all frames, frame.png the last one.",
         ),
     ],
     seconds: Annotated[float, typer.Option(help="How much of the scene, in its own time.")] = 10.0,

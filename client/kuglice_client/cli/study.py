@@ -14,6 +14,7 @@ import typer
 from kuglice.cli.figures import print_figures
 from kuglice.cli.logs import STDERR
 from kuglice.cli.rows import print_rows
+from kuglice.cli.writable import writable, writable_file
 from kuglice.extras import require
 from kuglice.study import SeenFrame, Study, other_screen_delays
 from kuglice.study.table import by_second, summary
@@ -37,10 +38,12 @@ def study(  # noqa: PLR0917 - options
         ),
     ] = None,
     frames_csv: Annotated[
-        Path | None, typer.Option("--csv", help="Write a row for every frame that was compared.")
+        Path | None,
+        typer.Option("--csv", callback=writable_file, help="Write a row for every frame that was compared."),
     ] = None,
     render: Annotated[
-        Path | None, typer.Option(help="Draw what was seen: .mp4, .webm, .gif, or frame-%05d.png.")
+        Path | None,
+        typer.Option(callback=writable, help="Draw what was seen: .mp4, .webm, .gif, or frame-%05d.png."),
     ] = None,
     fps: Annotated[float, typer.Option(help="Frames per second of the film.", min=1.0, max=240.0)] = 30.0,
     as_json: Annotated[bool, typer.Option("--json", help="The same figures as JSON.")] = False,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.status import Status
+from typer.core import TyperCommand
 
 from kuglice.cli.figures import print_figures, print_groups
 from kuglice.cli.logs import STDERR, log_to_stderr
@@ -36,13 +38,20 @@ __all__ = ["register"]
 
 MOVED_EVERY_SECONDS = 0.1
 FASTEST_PAN = 1e6
+NUMBERS = re.compile(r"-[\d.][^,]*,")
 OVERLAYS = ("tick", "scale")
 
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    # A corner may have a minus sign, and is no option.
-    app.command("view", context_settings={"ignore_unknown_options": True})(view)
+    app.command("view", cls=_Signed)(view)
+
+
+class _Signed(TyperCommand):
+    """Takes numbers with a comma between them for what they are: a minus sign before them begins no option."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:  # noqa: ANN401 - typer hides its class
+        return super().parse_args(ctx, [f" {word}" if NUMBERS.match(word) else word for word in args])
 
 
 def view(
@@ -91,14 +100,14 @@ def view(
     log_to_stderr()
     stop = stop_on_signals()
     settings = ViewSettings(
-        rectangle=parse_rectangle(rectangle),
+        rectangle=parse_rectangle(rectangle.strip()),
         connect=tuple(connect or (DEFAULT_ENDPOINT,)),
         world=world,
         margin=margin,
         budget=budget,
         wait=wait,
     )
-    velocity = _velocity(pan)
+    velocity = _velocity(pan.strip())
     film_settings = _film_settings(render, settings.rectangle, fps=fps, width=width, style=style)
     film: Film | None = None
     summary: dict[str, Any] = {}

@@ -16,6 +16,7 @@ from kuglice.cli.figures import print_figures
 from kuglice.cli.logs import STDERR, log_to_stderr
 from kuglice.cli.stop import stop_on_signals
 from kuglice.cli.threads import Threads
+from kuglice.cli.writable import writable_file
 from kuglice.protocol import DEFAULT_ENDPOINT
 from kuglice_server.server import Server
 from kuglice_server.settings import ServerSettings
@@ -67,7 +68,7 @@ def server(
         float,
         typer.Option(help="Seconds for which a player whose link was cut keeps its ball, to go on with it."),
     ] = 10.0,
-    record: Annotated[Path | None, typer.Option(help="Write a replay file.")] = None,
+    record: Annotated[Path | None, typer.Option(callback=writable_file, help="Write a replay file.")] = None,
     threads: Threads = 1,
     seconds: Annotated[
         float | None, typer.Option(min=0.0, help="Stop after this long. [default: on SIGINT or SIGTERM]")

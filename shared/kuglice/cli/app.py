@@ -6,9 +6,10 @@ import sys
 from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
 from importlib.util import find_spec
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
+from pydantic import ValidationError
 from typer.core import TyperGroup
 
 from kuglice.version import VERSION
@@ -46,7 +47,7 @@ gas:n=2000,packing=0.5. `kuglice scenes` lists them.
 def build() -> typer.Typer:
     """All commands that are installed."""
     app = typer.Typer(
-        cls=_Ordered,
+        cls=_Group,
         help=HELP,
         no_args_is_help=True,
         context_settings={"help_option_names": ["-h", "--help"]},
@@ -62,10 +63,20 @@ def build() -> typer.Typer:
     return app
 
 
-class _Ordered(TyperGroup):
+class _Group(TyperGroup):
     def list_commands(self, ctx: object) -> list[str]:
         """In our order, whoever registered them."""
         return sorted(self.commands, key=_place)
+
+    def invoke(self, ctx: Any) -> object:  # noqa: ANN401 - typer hides its class
+        """Whoever gave a value that is no good is told which one, also where typer tells the bound alone."""
+        try:
+            return super().invoke(ctx)
+        except typer.BadParameter as error:
+            if isinstance(error.__cause__, ValidationError):
+                first = error.__cause__.errors()[0]
+                error.message = f"{first['input']}: {first['msg'].replace('Input should', 'must')}"
+            raise
 
 
 def _place(name: str) -> int:

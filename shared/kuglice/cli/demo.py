@@ -12,6 +12,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from kuglice.cli.figures import print_figures
 from kuglice.cli.logs import STDERR
+from kuglice.cli.writable import writable_folder
 from kuglice.demo import DemoOutcome, DemoSettings, play
 from kuglice.extras import require
 
@@ -28,7 +29,8 @@ def register(app: typer.Typer) -> None:
 def demo(
     *,
     out: Annotated[
-        Path, typer.Option(help="Folder for films, frames, replay and summary.json.")
+        Path,
+        typer.Option(callback=writable_folder, help="Folder for films, frames, replay and summary.json."),
     ] = DEFAULTS.out,
     seconds: Annotated[float, typer.Option(min=1.0, help="How long the clients play.")] = DEFAULTS.seconds,
     scene: Annotated[str, typer.Option(help="What they play in.")] = DEFAULTS.scene,

@@ -13,6 +13,7 @@ import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from kuglice.cli.logs import STDERR
+from kuglice.cli.writable import writable
 from kuglice.errors import ReplayError
 from kuglice.extras import require
 from kuglice.replay import Replay, Verification
@@ -36,7 +37,10 @@ def register(app: typer.Typer) -> None:
 def replay(
     file: Annotated[Path, typer.Argument(help="What `kuglice server --record` wrote.", metavar="FILE")],
     render: Annotated[
-        Path | None, typer.Option(help="Draw it too: .mp4, .webm, .gif, or a directory for PNG frames.")
+        Path | None,
+        typer.Option(
+            callback=writable, help="Draw it too: .mp4, .webm, .gif, or a directory for PNG frames."
+        ),
     ] = None,
     fps: Annotated[float, typer.Option(help="Frames per second of the film.", min=1.0, max=240.0)] = 30.0,
     as_json: Annotated[bool, typer.Option("--json", help="The same figures as JSON.")] = False,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ipaddress
+import socket
 from collections.abc import Iterable
 
 from kuglice.errors import ProtocolError
@@ -14,6 +15,7 @@ __all__ = [
     "host_and_port",
     "is_loopback",
     "locators",
+    "unresolved",
     "wants_datagrams",
 ]
 
@@ -85,3 +87,15 @@ def is_loopback(endpoint: str) -> bool:
         return ipaddress.ip_address(host).is_loopback
     except ValueError:
         return False
+
+
+def unresolved(endpoint: str) -> str | None:
+    """The host of `endpoint` if it is a name that nobody knows an address of; asks, and may wait for the answer."""
+    if endpoint.partition("/")[0] in LOCAL_PROTOCOLS:
+        return None
+    host, port = host_and_port(endpoint)
+    try:
+        socket.getaddrinfo(host, port)
+    except (OSError, UnicodeError):
+        return host
+    return None

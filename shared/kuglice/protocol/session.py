@@ -13,7 +13,7 @@ import zenoh
 
 from kuglice.aside import aside
 from kuglice.errors import ProtocolError
-from kuglice.protocol.endpoints import as_written, locators
+from kuglice.protocol.endpoints import as_written, locators, unresolved
 
 __all__ = [
     "LEASE_MS",
@@ -128,7 +128,11 @@ def _why_not(configuration: dict[str, Any], told: str) -> str:
 def nobody_answers(configuration: dict[str, Any]) -> str:
     """What to tell a user who connects to where nobody answers."""
     connect = configuration.get("connect", {}).get("endpoints", [])
-    where = ", ".join(name for endpoint in connect for name in as_written(_links(endpoint)))
+    endpoints = [name for endpoint in connect for name in as_written(_links(endpoint))]
+    where = ", ".join(endpoints)
+    unknown = [host for host in map(unresolved, endpoints) if host is not None]
+    if unknown:
+        return f"cannot connect to {where}: no address is known of a host {' or '.join(unknown)}"
     return (
         f"cannot connect to {where}: nobody answers there; start one with `kuglice server SCENE`, or say with "
         "--connect where one runs"

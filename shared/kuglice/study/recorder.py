@@ -37,6 +37,7 @@ class StudyRecorder(Closing):
 
     def __init__(self, path: str | PathLike[str], *, seen_bytes: float = SEEN_BYTES) -> None:
         try:
+            Path(path).parent.mkdir(parents=True, exist_ok=True)
             self._file = Path(path).open("wb")  # noqa: SIM115 - close() ends what a whole run writes
         except OSError as error:
             raise ReplayError(f"{path}: cannot be written: {error.strerror}") from error

@@ -22,6 +22,11 @@ def test_what_is_no_rectangle_and_no_option_is_named():
     result = CliRunner().invoke(build(), ["view", "-5,-4,32", *NOBODY])
     assert isinstance(result.exception, ProtocolError)
     assert str(result.exception) == "view '-5,-4,32': must be four numbers X,Y,WIDTH,HEIGHT"
-    result = CliRunner().invoke(build(), ["view", "0,0,32,18", "--conect", "tcp/127.0.0.1:9"])
-    assert result.exit_code == 2
-    assert "--conect" in result.output
+    for words in (
+        ["0,0,32,18", "--conect", "tcp/127.0.0.1:9"],
+        ["--conect", "tcp/127.0.0.1:9", "-5,0,32,18"],
+    ):
+        result = CliRunner().invoke(build(), ["view", *words])
+        assert result.exit_code == 2
+        assert "No such option: --conect" in result.output
+        assert "--connect" in result.output

@@ -34,6 +34,15 @@ def test_nobody_there_is_told_with_the_endpoint_as_it_was_written_and_what_to_do
     )
 
 
+def test_a_host_without_an_address_is_named():
+    # A name that may never be given to anybody (RFC 6761).
+    with pytest.raises(ProtocolError) as told:
+        open_session(client_configuration(["tcp+udp/nobody.invalid:7447"], timeout=0.2))
+    assert str(told.value) == (
+        "cannot connect to tcp+udp/nobody.invalid:7447: no address is known of a host nobody.invalid"
+    )
+
+
 @pytest.mark.parametrize("links", ["tcp", "tcp+udp"])
 def test_a_port_that_is_taken_is_told_with_what_to_do(links):
     with taken_port() as taken:

@@ -10,6 +10,7 @@ from typing import Annotated
 import typer
 
 from kuglice.cli.rows import print_rows
+from kuglice.cli.writable import writable_folder
 from kuglice.lab import bench as benches
 from kuglice.lab.cli import capacity, network, wire
 from kuglice.lab.cli.progress import progress
@@ -43,7 +44,9 @@ def bench(  # noqa: PLR0917 - typer makes options of them
     only: Annotated[
         list[str] | None, typer.Option("--case", help="Only cases whose name contains this.")
     ] = None,
-    out: Annotated[Path, typer.Option(help="Where bench.json and bench.csv go.")] = Path("out/bench"),
+    out: Annotated[
+        Path, typer.Option(callback=writable_folder, help="Where bench.json and bench.csv go.")
+    ] = Path("out/bench"),
     as_json: Annotated[bool, typer.Option("--json", help="The same figures as JSON.")] = False,
 ) -> None:
     """Measure what ball-steps, copies and rollbacks cost.

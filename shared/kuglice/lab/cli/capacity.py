@@ -10,6 +10,7 @@ from typing import Annotated
 import typer
 
 from kuglice.cli.rows import print_rows
+from kuglice.cli.writable import writable_folder
 from kuglice.lab.capacity.measure import KINDS, LADDER, ROUTERS, jobs
 from kuglice.lab.cli.progress import progress
 from kuglice.lab.jobs import done
@@ -35,7 +36,9 @@ def capacity(
     kind: Annotated[
         list[str] | None, typer.Option(help="What listens: client or view. [default: each]")
     ] = None,
-    out: Annotated[Path, typer.Option(help="Where JSON and CSV go.")] = Path("out/bench"),
+    out: Annotated[Path, typer.Option(callback=writable_folder, help="Where JSON and CSV go.")] = Path(
+        "out/bench"
+    ),
     as_json: Annotated[bool, typer.Option("--json", help="The same figures as JSON.")] = False,
 ) -> None:
     """Feed more and more clients until a tick is late.

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from kuglice.cli.writable import writable_file, writable_folder
 from kuglice.lab.cli.progress import progress
 from kuglice.lab.jobs import Effort, done
 from kuglice.lab.machine import this_machine
@@ -35,9 +36,14 @@ def chart(  # noqa: PLR0917 - typer makes options of them
     quick: Annotated[bool, typer.Option("--quick", help="Less of everything, in under a minute.")] = False,
     only: Annotated[list[str] | None, typer.Option(help="Only charts whose name contains this.")] = None,
     repeats: Annotated[int, typer.Option(help="Rounds of every timing.", min=1, max=100)] = 5,
-    out: Annotated[Path, typer.Option(help="Where PNG, SVG and CSV go.")] = Path("out/chart"),
+    out: Annotated[Path, typer.Option(callback=writable_folder, help="Where PNG, SVG and CSV go.")] = Path(
+        "out/chart"
+    ),
     plan_table: Annotated[
-        Path | None, typer.Option(help="Write the planner's table here too, as `make chart` does.")
+        Path | None,
+        typer.Option(
+            callback=writable_file, help="Write the planner's table here too, as `make chart` does."
+        ),
     ] = None,
 ) -> None:
     """Measure and draw the charts of precision and cost.

@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from kuglice.cli.writable import writable_folder
 from kuglice.errors import KugliceError
 from kuglice.lab.cli.progress import progress
 from kuglice.lab.machine import this_machine
@@ -47,7 +48,9 @@ def network(
     snapshots: Annotated[
         bool, typer.Option("--snapshots", help="Vary the rate of snapshots instead of the link.")
     ] = False,
-    out: Annotated[Path, typer.Option(help="Where JSON, CSV and Markdown go.")] = Path("out/bench"),
+    out: Annotated[
+        Path, typer.Option(callback=writable_folder, help="Where JSON, CSV and Markdown go.")
+    ] = Path("out/bench"),
     as_json: Annotated[bool, typer.Option("--json", help="The same figures as JSON.")] = False,
 ) -> None:
     """Play over delay, jitter, loss and cuts, and measure what players see.

@@ -11,6 +11,7 @@ import typer
 
 from kuglice.cli.rows import print_rows
 from kuglice.cli.threads import Threads
+from kuglice.cli.writable import writable_folder
 from kuglice.errors import KugliceError
 from kuglice.lab.cli.progress import progress
 from kuglice.lab.machine import this_machine
@@ -35,7 +36,9 @@ def wire(
     scene: Annotated[list[str] | None, typer.Option(help="Only these scenes; may be repeated.")] = None,
     seconds: Annotated[float, typer.Option(help="Measured of each scene.", min=1.0, max=600.0)] = 10.0,
     threads: Threads = 1,
-    out: Annotated[Path, typer.Option(help="Where JSON and CSV go.")] = Path("out/bench"),
+    out: Annotated[Path, typer.Option(callback=writable_folder, help="Where JSON and CSV go.")] = Path(
+        "out/bench"
+    ),
     as_json: Annotated[bool, typer.Option("--json", help="The same figures as JSON.")] = False,
 ) -> None:
     """Count bytes per ball, update and second.
