@@ -1,4 +1,8 @@
-"""Which regions a view wants, and how often: all that cover it, and if that is too much, the far ones less often."""
+"""Which regions a view wants, and how often: all that cover it, and if that is too much, the far ones less often.
+
+A region that has just come into sight is asked for at full pace until it was told of once: at a slow pace there would
+be a hole for as long as that takes to come round, up to 1.6 s.
+"""
 
 from __future__ import annotations
 
@@ -12,6 +16,9 @@ __all__ = ["Interest"]
 KEPT_SHARE = 0.9
 """Of the budget: what is told grows and shrinks between two looks at it."""
 SPARE_SHARE = 0.75
+FIRST_SECONDS = 0.1
+"""Of the budget, for first words at a time."""
+FIRST_SMOOTHING = 0.3
 SMOOTHING = 0.2
 ENVELOPE_BYTES = 16
 BALL_BYTES = 8
@@ -32,18 +39,43 @@ class Interest:
         self._sizes: dict[int, float] = {}
         self.paces: dict[int, int] = {}
         """Node -> pace, of the nodes that are wanted."""
+        self._first: frozenset[int] = frozenset()
+        self._first_bytes = 0
+        self._first_rate = 0.0
         self.left_out = 0
         """Nodes that would be wanted, if there were bytes for them."""
 
     def note(self, node: int, size: int) -> None:
         """A message about that node took so many bytes."""
         known = self._sizes.get(node)
+        if node in self._first:
+            self._first_bytes += size
         self._sizes[node] = size if known is None else known + SMOOTHING * (size - known)
+
+    def passed(self, seconds: float) -> None:
+        """So long after the last call: what first words took meanwhile is to be expected of the next too."""
+        self._first_rate += FIRST_SMOOTHING * (self._first_bytes / seconds - self._first_rate)
+        self._first_bytes = 0
+
+    @property
+    def asked_for(self) -> dict[int, int]:
+        """Node -> pace, as it is to be asked for now: first words come sooner than at the paces that last."""
+        return self.paces | dict.fromkeys(self._first, 0)
+
+    @property
+    def complete(self) -> bool:
+        """Whether all that is wanted was told of."""
+        return self.paces.keys() <= self._sizes.keys()
+
+    @property
+    def first_words_came(self) -> bool:
+        """Of something that need be told no more at full pace; others may have their turn."""
+        return not self._first.isdisjoint(self._sizes)
 
     @property
     def bytes_per_second(self) -> float:
         """What is to be expected."""
-        return self._cost(self.paces)
+        return self._cost(self.paces) + self._first_rate
 
     @property
     def out_of_balance(self) -> bool:
@@ -65,17 +97,26 @@ class Interest:
         middle = ((left + right) / 2, (bottom + top) / 2)
         near_first = sorted(outer, key=lambda node: (node not in inner, self._distance(node, middle), node))
         paces = self._affordable(near_first)
-        changed = paces != self.paces
+        before = self.asked_for
         self.paces, self.left_out = paces, len(near_first) - len(paces)
         self._sizes = {node: size for node, size in self._sizes.items() if node in outer}
-        return changed
+        self._first = self._next_first([node for node in near_first if node in paces])
+        return self.asked_for != before
+
+    def _next_first(self, near_first: list[int]) -> frozenset[int]:
+        """The nearest of which nothing is known, as many as there are bytes for in one go, at least one."""
+        if self._budget is None:
+            return frozenset()
+        unknown = [node for node in near_first if node not in self._sizes]
+        most = int(FIRST_SECONDS * self._budget / self._guess)
+        return frozenset(unknown[: max(1, most)])
 
     def _affordable(self, near_first: list[int]) -> dict[int, int]:
         """From the farthest on: one pace slower, and again, as long as the budget asks for it; then without."""
         paces = dict.fromkeys(near_first, 0)
         if self._budget is None:
             return paces
-        excess = self._cost(paces) - KEPT_SHARE * self._budget
+        excess = self._cost(paces) + self._first_rate - KEPT_SHARE * self._budget
         for pace in range(1, PACES):
             for node in reversed(near_first):
                 if excess <= 0:

@@ -68,8 +68,11 @@ class PartialReplica:
 
     def out_of_balance(self, now: float) -> bool:
         """Whether `look_at` again would pay, for the budget's sake; looked at now and then."""
+        if self.interest.first_words_came:
+            return True
         if now - self._balanced_at <= BALANCED_EVERY_SECONDS:
             return False
+        self.interest.passed(now - self._balanced_at)
         self._balanced_at = now
         return self.interest.out_of_balance
 

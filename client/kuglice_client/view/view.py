@@ -33,6 +33,10 @@ __all__ = ["View"]
 
 log = logging.getLogger(__name__)
 
+ARRIVE_SECONDS = 0.5
+"""Who has not been told of everything in sight by then is shown what there is."""
+ARRIVE_IDLE_SECONDS = 0.001
+
 
 class View(Closing):
     """Connects and subscribes when made; `run` looks until told to stop. A context manager. Raises JoinError.
@@ -58,6 +62,7 @@ class View(Closing):
             self.subscriptions = Subscriptions(self.link.session, self._keys)
             self._inquiry = Inquiry(self.link, self._keys)
             self._enter(self._inquiry.wait(waiting))
+            self._arrive()
         except BaseException:
             self.close()
             raise
@@ -122,9 +127,17 @@ class View(Closing):
         self._look()
         log.info("looking at world %s from tick %d on", about.world, about.tick)
 
+    def _arrive(self) -> None:
+        """Hear of all that is in sight, before anybody sees it piece by piece."""
+        until = time.monotonic() + ARRIVE_SECONDS
+        while (now := time.monotonic()) < until and not self.replica.interest.complete:
+            self.turn(now)
+            if self.stop.wait(ARRIVE_IDLE_SECONDS):
+                return
+
     def _look(self) -> None:
         self.replica.look_at(self.rectangle)
-        self.subscriptions.want(self.replica.nodes, self.replica.interest.paces)
+        self.subscriptions.want(self.replica.nodes, self.replica.interest.asked_for)
 
     def _receive(self, now: float) -> None:
         samples = self.subscriptions.samples

@@ -87,3 +87,61 @@ def test_a_rectangle_is_given_by_its_corner_and_its_size():
 def test_settings_that_cannot_be_are_refused(wrong):
     with pytest.raises(ProtocolError):
         ViewSettings(VIEW, **wrong)
+
+
+def test_what_comes_into_sight_is_asked_for_at_once_nearest_first_and_then_at_its_pace():
+    made = interest(3000.0)
+    assert all(made.paces.values()), "on this budget everything is slow"
+    told: list[int] = []
+    while not made.complete:
+        at_once = {node for node, pace in made.asked_for.items() if pace < made.paces[node]}
+        assert at_once.isdisjoint(told)
+        assert 0 < 100 * len(at_once) <= 0.1 * 3000.0
+        later = made.paces.keys() - at_once - set(told)
+        assert max(map(chebyshev, at_once)) <= min(map(chebyshev, later), default=80.0)
+        assert not made.first_words_came
+        for node in at_once:
+            made.note(node, 100)
+        told += at_once
+        assert made.first_words_came
+        made.choose(VIEW, 10.0)
+    assert made.asked_for == made.paces
+    assert not made.first_words_came
+
+
+def test_what_was_out_of_sight_is_asked_for_at_once_again():
+    made = interest(3000.0)
+    while not made.complete:
+        for node in made.asked_for:
+            made.note(node, 100)
+        made.choose(VIEW, 10.0)
+    made.choose((0.0, 0.0, 8.0, 8.0), 0.0)
+    assert made.asked_for == {0: 0}
+    made.choose(VIEW, 10.0)
+    assert made.asked_for != made.paces
+
+
+def test_what_first_words_take_is_saved_at_the_paces():
+    budget = 12_000.0
+    made = interest(budget)
+
+    def look(view) -> None:
+        made.choose(view, 10.0)
+        while not made.complete:
+            for node in made.asked_for:
+                made.note(node, 100)
+            made.choose(view, 10.0)
+
+    look(VIEW)
+    at_rest = dict(made.paces)
+    for _ in range(20):
+        look((0.0, 0.0, 8.0, 8.0))
+        look(VIEW)
+        made.passed(1.0)
+        made.choose(VIEW, 10.0)
+        assert made.bytes_per_second <= budget
+    assert sum(made.paces.values()) > sum(at_rest.values())
+    for _ in range(30):
+        made.passed(1.0)
+    made.choose(VIEW, 10.0)
+    assert made.paces == at_rest
