@@ -57,7 +57,7 @@ def test_datagrams_that_nobody_answers_are_told_of_once(server, endpoint, tmp_pa
     server.signal(2)
     server.figures()
     assert [text for text in caplog.messages if "datagram" in text] == [
-        "the datagram link (udp) never came up: ticks and inputs go over tcp alone"
+        "the datagram link (udp) never came up: everything goes over tcp alone"
     ]
     assert summary["links"] == "tcp"
     assert_all_equal(tmp_path / "run.kuglice", [summary])

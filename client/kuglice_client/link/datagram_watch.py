@@ -1,4 +1,4 @@
-"""Whether the datagrams beside the stream get through, where they are wanted: told when that changes, and once."""
+"""Whether stream and datagrams get through, where both are wanted: told when that changes, and once."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ EVERY_SECONDS = 1.0
 
 
 class DatagramWatch:
-    """Warns where a client has to make do with the stream: later ticks and inputs, but nothing wrong."""
+    """Warns where a client has to make do with one of the two: later ticks and inputs, but nothing wrong."""
 
     def __init__(self, link: Link) -> None:
         self._link = link
         self._look_at = time.monotonic() + FIRST_SECONDS
         self._were_up: bool | None = None
         self.missing = False
-        """Whether they did not get through when last looked at."""
+        """Whether one of the two did not get through when last looked at."""
 
     @property
     def up(self) -> bool:
-        """Whether they got through when last looked at."""
+        """Whether both got through when last looked at."""
         return bool(self._were_up) and not self.missing
 
     def renewed(self) -> None:
@@ -47,15 +47,14 @@ class DatagramWatch:
         if not kinds:
             # Cut off altogether: that is told as silence.
             return
-        up = "udp" in kinds
+        up = len(kinds) > 1
         self.missing = not up
         if up == self._were_up:
             return
         if not up:
-            what = "never came up" if self._were_up is None else "is dead"
-            log.warning(
-                "the datagram link (udp) %s: ticks and inputs go over %s alone", what, "+".join(kinds)
-            )
+            what = "the stream (tcp)" if "udp" in kinds else "the datagram link (udp)"
+            became = "never came up" if self._were_up is None else "is dead"
+            log.warning("%s %s: everything goes over %s alone", what, became, "+".join(kinds))
         elif self._were_up is not None:
-            log.info("the datagram link (udp) is up again")
+            log.info("stream and datagrams are up again")
         self._were_up = up

@@ -16,7 +16,7 @@ import zenoh
 
 from kuglice.aside import aside
 from kuglice.errors import JoinError, ProtocolError
-from kuglice.protocol import close_session, nobody_answers, open_session
+from kuglice.protocol import close_session, lacks_stream, nobody_answers, open_session
 
 __all__ = ["Opening"]
 
@@ -92,12 +92,15 @@ class Opening:
     def _try(self) -> None:
         try:
             session = open_session(self._configuration)
+            crippled = lacks_stream(session)
             with self._lock:
-                is_first = not self._over and self._session is None
-                if is_first:
+                is_taken = not crippled and not self._over and self._session is None
+                if is_taken:
                     self._session = session
-            if not is_first:
+            if not is_taken:
                 close_session(session, [])
+            if crippled:
+                raise ProtocolError("only datagrams came up, and questions need a stream")
         except ProtocolError as error:
             log.debug("%s", error)
             with self._lock:

@@ -13,13 +13,14 @@ import zenoh
 
 from kuglice.aside import aside
 from kuglice.errors import ProtocolError
-from kuglice.protocol.endpoints import as_written, locators, unresolved
+from kuglice.protocol.endpoints import DATAGRAMS, as_written, locators, unresolved
 
 __all__ = [
     "LEASE_MS",
     "Declared",
     "client_configuration",
     "close_session",
+    "lacks_stream",
     "nobody_answers",
     "open_links",
     "open_session",
@@ -36,6 +37,11 @@ LINKS = 2
 OPEN_TIMEOUT_MS = 1500
 """How long a link that nobody answers on is tried: it may have been cut, or another one be there."""
 RETRY_MS = 200
+RECEIVING_THREADS = 16
+"""A session that ends keeps one of the threads that receive for a round trip. By default there are two of them, and
+with both taken nobody's datagrams are read."""
+RUNTIME = "ZENOH_RUNTIME"
+"""Read by Zenoh when the first session of a process is opened; what the user says there counts."""
 NEVER_MS = 24 * 3600 * 1000
 
 
@@ -107,6 +113,7 @@ def _configuration(
 
 def open_session(configuration: dict[str, Any]) -> zenoh.Session:
     """Open a session; raises ProtocolError, naming the endpoints, if that fails."""
+    os.environ.setdefault(RUNTIME, f"(rx: (worker_threads: {RECEIVING_THREADS}))")
     try:
         return zenoh.open(zenoh.Config.from_json5(json.dumps(configuration)))
     except zenoh.ZError as error:
@@ -146,6 +153,12 @@ def _links(endpoint: str | dict[str, Any]) -> list[str]:
 def open_links(session: zenoh.Session) -> list[str]:
     """The kinds of links that are up, like `tcp` or `udp`, each once, in order of the alphabet."""
     return sorted({str(link.dst).partition("/")[0] for link in session.info.links()})
+
+
+def lacks_stream(session: zenoh.Session) -> bool:
+    """Whether of a stream and the datagrams beside it only the datagrams came up: questions may get lost there."""
+    kinds = [str(link.dst).endswith(DATAGRAMS) for link in session.info.links()]
+    return bool(kinds) and all(kinds)
 
 
 def close_session(session: zenoh.Session, declared: Iterable[Declared], *, timeout: float = 5.0) -> bool:

@@ -101,6 +101,16 @@ def test_a_try_that_gets_no_answer_is_not_waited_for(silent):
     opening.end()
 
 
+def test_datagrams_without_their_stream_are_no_session(port):
+    server = open_session(server_configuration(listen=[f"udp/127.0.0.1:{port}?rel=0"], connect=[]))
+    opening = Opening(client_configuration([f"tcp+udp/127.0.0.1:{port}"], timeout=1.0, reconnect=False))
+    until(lambda: opening.failure is not None)
+    assert opening.poll(time.monotonic()) is None
+    assert "only datagrams came up" in str(opening.failure)
+    opening.end()
+    close_session(server, [])
+
+
 def test_what_opens_after_the_end_is_closed(port):
     server = open_session(server_configuration(listen=[f"tcp/127.0.0.1:{port}"], connect=[]))
     opening = Opening(configuration(port))
