@@ -108,7 +108,8 @@ def _silent(other: RawClient) -> bool:
 def test_a_server_that_starts_anew_is_looked_at_again(start, scene, endpoint, look, server):
     view = look()
     whole_tick(view)
-    epoch = view.replica.about.epoch
+    epoch, updates = view.replica.about.epoch, view.updates
+    assert updates > 0
     server.kill()
     start("server", scene, "--listen", endpoint)
 
@@ -119,6 +120,7 @@ def test_a_server_that_starts_anew_is_looked_at_again(start, scene, endpoint, lo
     until(anew, what="the new server is found")
     assert view.rejoins == 1
     whole_tick(view)
+    assert view.updates >= updates + len(view.replica.interest.paces), "of both runs"
     assert view.in_sight.sum() > 10
 
 

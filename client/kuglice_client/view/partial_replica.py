@@ -54,7 +54,8 @@ class PartialReplica:
         )
         left, bottom, right, top = self.nodes.rectangle(0)
         self._margin = min(right - left, top - bottom) / 2 if settings.margin is None else settings.margin
-        self._silence = max(SILENCE_SECONDS, SILENCE_ROUNDS / about.regions.rate)
+        self.silence_seconds = max(SILENCE_SECONDS, SILENCE_ROUNDS / about.regions.rate)
+        """More than a server that keeps its rate is ever silent for."""
         self._newest = about.tick
         self._balanced_at = now
         self._heard_at = now
@@ -77,15 +78,15 @@ class PartialReplica:
         return self.interest.out_of_balance
 
     def silent(self, now: float) -> bool:
-        """Whether nothing of this run has come for longer than a server that keeps its rate is silent."""
-        return now - self._heard_at > self._silence
+        """Whether nothing of this run has come for longer than that."""
+        return now - self._heard_at > self.silence_seconds
 
     def overdue(self, about: ViewAbout) -> bool:
         """Whether the server, as it says now, has made more ticks than it is silent for: they did not get here.
 
         One that is slower than it should be, or stands still, has nothing to tell, and its link may be well.
         """
-        return about.tick - self._newest > self._silence * about.rate
+        return about.tick - self._newest > self.silence_seconds * about.rate
 
     def hear(self, key: str, data: bytes, now: float) -> bool:
         """Take in a message. Whether it was of this run. Raises ProtocolError for what no server could say."""

@@ -53,6 +53,8 @@ class View(Closing):
         self.accuracy = Accuracy()
         self.correction = Correction()
         self.malformed = 0
+        self._silent = False
+        self._updates_before = self._balls_told_before = 0
         self.rejoins = 0
         self.link = Link(settings.connect, deadline=deadline, stop=self.stop)
         self.renewal = Renewal(self.link, DatagramWatch(self.link))
@@ -100,6 +102,16 @@ class View(Closing):
                 each_frame(self, alpha)
 
         run_loop(self.turn, frame, Frames(fps), stop=self.stop, seconds=seconds)
+
+    @property
+    def updates(self) -> int:
+        """Regions that were told of, by all runs of the server."""
+        return self._updates_before + self.replica.updates
+
+    @property
+    def balls_told(self) -> int:
+        """Balls in these, as often as each was told."""
+        return self._balls_told_before + self.replica.balls_told
 
     @property
     def in_sight(self) -> NDArray[np.bool_]:
@@ -162,6 +174,9 @@ class View(Closing):
         Raises JoinError if it is another server, which speaks or steps otherwise.
         """
         silent = self.replica.silent(now)
+        if silent and not self._silent:
+            log.warning("no news of world %s for %g s", self._keys.world, self.replica.silence_seconds)
+        self._silent = silent
         if silent:
             self._inquiry.ask(now)
         about = self._inquiry.answer()
@@ -169,7 +184,9 @@ class View(Closing):
         if self.renewal.turn(now, silent=silent, answered=goes_on):
             self.subscriptions.go_over(self.link.session)
         if about is not None and about.epoch != self.replica.about.epoch:
+            log.warning("world %s was restarted: looked at again", self._keys.world)
             self.rejoins += 1
+            self._updates_before, self._balls_told_before = self.updates, self.balls_told
             self._enter(about)
 
     def _compare(self, ids: Ids, position: Floats, off: Floats) -> None:
