@@ -107,6 +107,7 @@ def test_what_a_client_cannot_draw_is_refused_before_it_connects():
         ),
         (("--size", "wide"), "size 'wide': must be two whole numbers of pixels like 1280x720"),
         (("--world", "a/b"), "world 'a/b': must be 1 to 32 letters"),
+        (("--name", ""), "client '': must be 1 to 32 letters"),
         (("--connect", "7447"), "endpoint '7447': must look like tcp+udp/127.0.0.1:7447"),
         (("--style", "nope"), "style 'nope': there is none of that name, only discs"),
         (("--overlay", "nope", "--render", "x.gif"), "overlay 'nope': there is none of that name"),

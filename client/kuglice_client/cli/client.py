@@ -124,7 +124,7 @@ def client(
     settings = ClientSettings(
         connect=tuple(connect or (DEFAULT_ENDPOINT,)),
         world=world,
-        name=name or (f"{bot}-{secrets.token_hex(3)}" if bot else None),
+        name=f"{bot}-{secrets.token_hex(3)}" if name is None and bot is not None else name,
         bot=bot,
         wait=wait,
         lose=(lambda _: random.random() < lose) if lose else None,

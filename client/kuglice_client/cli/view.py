@@ -113,6 +113,7 @@ def view(
     summary: dict[str, Any] = {}
     looking = View(settings, stop)
     try:
+        _say_if_outside(settings.rectangle, looking.replica.scene.box)
         show: Callable[[View, float], None] | None = None
         if film_settings is not None:
             film, show = _film(looking, film_settings)
@@ -134,6 +135,14 @@ def view(
         raise typer.Exit(1)
     if "film_error" in summary:
         raise typer.Exit(2)
+
+
+def _say_if_outside(rectangle: Rectangle, box: Rectangle) -> None:
+    left, bottom, right, top = rectangle
+    if right <= box[0] or left >= box[2] or top <= box[1] or bottom >= box[3]:
+        STDERR.print(
+            f"view {rectangle}: lies outside the world, whose box is {box}", highlight=False, style="yellow"
+        )
 
 
 def _velocity(text: str) -> tuple[float, float]:

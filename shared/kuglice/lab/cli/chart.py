@@ -60,9 +60,13 @@ def chart(  # noqa: PLR0917 - typer makes options of them
     if scene is not None:
         chosen = [scene_chart(scene.partition(":")[0].replace("/", "_"), subject(find(scene)))]
     else:
-        chosen = [each for each in charts() if not only or any(part in each.name for part in only)]
-    if not chosen:
-        raise typer.BadParameter(f"no chart is called like {', '.join(only or [])}", param_hint="--only")
+        every = charts()
+        chosen = [each for each in every if not only or any(part in each.name for part in only)]
+        if not chosen:
+            names = ", ".join(each.name for each in every)
+            raise typer.BadParameter(
+                f"no chart is called like {', '.join(only or [])}, only {names}", param_hint="--only"
+            )
     for path in _make(chosen, effort, out, plan_table):
         print(path)
 

@@ -53,7 +53,7 @@ def network(
     ] = Path("out/bench"),
     as_json: Annotated[bool, typer.Option("--json", help="The same figures as JSON.")] = False,
 ) -> None:
-    """Play over delay, jitter, loss and cuts, and measure what players see.
+    """Measure what players see over delay, jitter, loss and cuts.
 
     A real server and real clients, each a process, with a conditioned link between them: every scene, at round
     trips of 0, 50, 150 and 300 ms, without and with 20 % jitter, with 2 % of the packets lost each way. At 150
