@@ -34,8 +34,6 @@ __all__ = ["Client"]
 
 log = logging.getLogger(__name__)
 
-LINGER_TRIPS = 1.5
-"""Round trips for which a goodbye is given time to arrive."""
 KNOWN_EPOCHS = 64
 SESSION_BYTES = 8
 
@@ -54,7 +52,6 @@ class Client(Closing):
         self.totals = Totals()
         self.screen = Screen()
         self._study: StudyRecorder | None = None
-        self._linger = 0.0
         self._other_epochs: set[int] = set()
         # Tells us from another who takes the same name; whoever is cut off and comes back is the same still.
         self._session = secrets.token_hex(SESSION_BYTES)
@@ -167,7 +164,7 @@ class Client(Closing):
         """Leave. False if Zenoh did not finish within `timeout` seconds."""
         if self._study is not None:
             self._study.close()
-        return self.link.close(timeout, linger=self._linger)
+        return self.link.close(timeout)
 
     def _join(self, waiting: Waiting) -> Joined:
         who = None if self.settings.name is None else (self.settings.name, self._session)
@@ -179,7 +176,6 @@ class Client(Closing):
         self.step_seconds = step_seconds(joined.world)
         judge_pace(self.step_seconds, rate=about.rate, balls=joined.world.count)
         now = time.monotonic()
-        self._linger = LINGER_TRIPS * joined.round_trip
         self.replica = Replica(
             joined,
             self.link,

@@ -33,7 +33,7 @@ class RawClient:
         self.keys = Keys(world)
         self.name = name
         self.session_id = secrets.token_hex(8)
-        deadline = time.monotonic() + 20
+        deadline = time.monotonic() + 30
         while True:
             try:
                 self.session = open_session(client_configuration([endpoint], timeout=1.0))
@@ -60,7 +60,7 @@ class RawClient:
         close_session(self.session, reversed(self._declared))
 
     def status(self) -> Status | None:
-        for reply in self.session.get(self.keys.status, timeout=5.0):
+        for reply in self.session.get(self.keys.status, timeout=30.0):
             if reply.ok is not None:
                 return decode(reply.ok.payload.to_bytes(), Status)
         return None
@@ -82,7 +82,13 @@ class RawClient:
 
     def put(self, key: str, payload: bytes) -> None:
         """Out to the others only: what one puts oneself would come back to one's own subscriber."""
-        self.session.put(key, payload, allowed_destination=zenoh.Locality.REMOTE)
+        # What a busy machine cannot take at once is to be waited for, and not dropped as the default is.
+        self.session.put(
+            key,
+            payload,
+            congestion_control=zenoh.CongestionControl.BLOCK,
+            allowed_destination=zenoh.Locality.REMOTE,
+        )
 
     def raw(self, payload: bytes, name: str | None = None, session: str | None = None) -> None:
         self.put(self.keys.input(name or self.name, session or self.session_id), payload)

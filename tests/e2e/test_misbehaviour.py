@@ -74,7 +74,7 @@ def test_questions_that_cannot_be_answered_are_refused_in_words(server, endpoint
         epoch = until(lambda: (status := asker.status()).tick > 5 and status).epoch
 
         def ask(payload: bytes | None) -> str:
-            (reply,) = asker.session.get(asker.keys.history, payload=payload, timeout=5.0)
+            (reply,) = asker.session.get(asker.keys.history, payload=payload, timeout=30.0)
             return decode(reply.err.payload.to_bytes(), Refusal).reason
 
         assert "needs a payload" in ask(None)
@@ -92,7 +92,7 @@ def test_history_comes_in_parts_that_fit_into_a_batch(server, endpoint):
         request = encode(SnapshotRequest(epoch=epoch, at=None))
         replies = list(
             asker.session.get(
-                asker.keys.history, payload=request, timeout=5.0, consolidation=zenoh.ConsolidationMode.NONE
+                asker.keys.history, payload=request, timeout=30.0, consolidation=zenoh.ConsolidationMode.NONE
             )
         )
         assert replies

@@ -83,7 +83,7 @@ class Link:
         )
         self._declared.append(self._input)
         token = self.session.liveliness().declare_token(self._keys.client(name, session))
-        self._goodbye = _Goodbye(self.session, self._keys.input(name, session))
+        self._goodbye = _Goodbye(self.session, self._keys, (name, session))
         self._declared += [token, self._goodbye]
 
     def make_room(self, parts: int) -> None:
@@ -146,14 +146,10 @@ class Link:
         close_session(old, reversed(declared), timeout=0.0)
         return True
 
-    def close(self, timeout: float, *, linger: float = 0.0) -> bool:
-        """Leave. False if Zenoh did not finish within `timeout` seconds.
-
-        `linger`: seconds in which the goodbye is on its way. A socket that is closed while more comes in takes back
-        what it had not delivered yet.
-        """
+    def close(self, timeout: float) -> bool:
+        """Leave. False if Zenoh did not finish within `timeout` seconds."""
         if self._goodbye is not None:
-            self._goodbye.linger = min(linger, timeout / 2)
+            self._goodbye.patience = timeout / 2
         if self._opening is not None:
             self._opening.end()
         return close_session(self.session, reversed(self._declared), timeout=timeout)
@@ -178,17 +174,26 @@ class Link:
 
 
 class _Goodbye:
-    """Says, as the first thing that is undeclared, that the rest is no cut."""
+    """Says, as the first thing that is undeclared, that the rest is no cut, and waits until it has arrived.
 
-    def __init__(self, session: zenoh.Session, key: str) -> None:
+    A socket that is closed while more comes in takes back what it has not delivered yet. What is asked behind the
+    goodbye, over the same stream, is answered after it has come.
+    """
+
+    def __init__(self, session: zenoh.Session, keys: Keys, who: tuple[str, str]) -> None:
         self._session = session
-        self._key = key
-        self.linger = 0.0
+        self._keys = keys
+        self._who = who
+        self.patience = 0.0
+        """Seconds, for a link that is lost and not known to be."""
 
     def undeclare(self) -> None:
         self._session.delete(
-            self._key,
+            self._keys.input(*self._who),
             congestion_control=zenoh.CongestionControl.BLOCK,
             allowed_destination=zenoh.Locality.REMOTE,
         )
-        time.sleep(self.linger)
+        answers = self._session.get(
+            self._keys.status, timeout=self.patience, congestion_control=zenoh.CongestionControl.BLOCK
+        )
+        next(iter(answers), None)
