@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import signal
 import socket
@@ -97,8 +98,15 @@ class CommandProcess:
 
 def free_port() -> int:
     """One on which nothing listens now, neither for TCP nor for UDP."""
-    with socket.socket() as probe, socket.socket(type=socket.SOCK_DGRAM) as datagrams:
-        probe.bind(("127.0.0.1", 0))
-        port: int = probe.getsockname()[1]
-        datagrams.bind(("127.0.0.1", port))
-        return port
+    while True:
+        with socket.socket() as probe, socket.socket(type=socket.SOCK_DGRAM) as datagrams:
+            probe.bind(("127.0.0.1", 0))
+            port: int = probe.getsockname()[1]
+            try:
+                datagrams.bind(("127.0.0.1", port))
+            except OSError as error:
+                # Free for TCP alone: others have datagrams under way.
+                if error.errno != errno.EADDRINUSE:
+                    raise
+                continue
+            return port

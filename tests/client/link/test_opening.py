@@ -95,9 +95,12 @@ def test_nobody_at_all_is_told_with_the_endpoint(port):
 
 def test_a_try_that_gets_no_answer_is_not_waited_for(silent):
     opening, now = Opening(configuration(silent)), time.monotonic()
-    for turn in range(1, 10 * TRIES):
-        assert opening.poll(now + turn * STAGGER_SECONDS) is None
-    assert opening.tries == TRIES, "and there are not more than so many at a time"
+    turns = 0
+    # On a busy machine the first are over before the last have begun.
+    while opening.tries < TRIES or turns < 10 * TRIES:
+        turns += 1
+        assert opening.poll(now + turns * STAGGER_SECONDS) is None
+        assert opening.under_way <= TRIES, "there are not more than so many at a time"
     opening.end()
 
 
