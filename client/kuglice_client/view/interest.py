@@ -18,7 +18,7 @@ KEPT_SHARE = 0.9
 SPARE_SHARE = 0.75
 FIRST_SECONDS = 0.1
 """Of the budget, for first words at a time."""
-FIRST_SMOOTHING = 0.3
+BEYOND_SMOOTHING = 0.3
 SMOOTHING = 0.2
 ENVELOPE_BYTES = 16
 BALL_BYTES = 8
@@ -40,22 +40,22 @@ class Interest:
         self.paces: dict[int, int] = {}
         """Node -> pace, of the nodes that are wanted."""
         self._first: frozenset[int] = frozenset()
-        self._first_bytes = 0
-        self._first_rate = 0.0
+        self._bytes = 0
+        self._beyond = 0.0
         self.left_out = 0
         """Nodes that would be wanted, if there were bytes for them."""
 
     def note(self, node: int, size: int) -> None:
         """A message about that node took so many bytes."""
         known = self._sizes.get(node)
-        if node in self._first:
-            self._first_bytes += size
+        self._bytes += size
         self._sizes[node] = size if known is None else known + SMOOTHING * (size - known)
 
     def passed(self, seconds: float) -> None:
-        """So long after the last call: what first words took meanwhile is to be expected of the next too."""
-        self._first_rate += FIRST_SMOOTHING * (self._first_bytes / seconds - self._first_rate)
-        self._first_bytes = 0
+        """So long after the last call: what came beyond the paces, first words above all, is to be expected again."""
+        beyond = self._bytes / seconds - self._cost(self.paces)
+        self._beyond = max(0.0, self._beyond + BEYOND_SMOOTHING * (beyond - self._beyond))
+        self._bytes = 0
 
     @property
     def asked_for(self) -> dict[int, int]:
@@ -75,7 +75,7 @@ class Interest:
     @property
     def bytes_per_second(self) -> float:
         """What is to be expected."""
-        return self._cost(self.paces) + self._first_rate
+        return self._cost(self.paces) + self._beyond
 
     @property
     def out_of_balance(self) -> bool:
@@ -116,7 +116,7 @@ class Interest:
         paces = dict.fromkeys(near_first, 0)
         if self._budget is None:
             return paces
-        excess = self._cost(paces) + self._first_rate - KEPT_SHARE * self._budget
+        excess = self._cost(paces) + self._beyond - KEPT_SHARE * self._budget
         for pace in range(1, PACES):
             for node in reversed(near_first):
                 if excess <= 0:

@@ -121,27 +121,31 @@ def test_what_was_out_of_sight_is_asked_for_at_once_again():
     assert made.asked_for != made.paces
 
 
-def test_what_first_words_take_is_saved_at_the_paces():
-    budget = 12_000.0
-    made = interest(budget)
-
-    def look(view) -> None:
-        made.choose(view, 10.0)
-        while not made.complete:
-            for node in made.asked_for:
-                made.note(node, 100)
-            made.choose(view, 10.0)
-
-    look(VIEW)
-    at_rest = dict(made.paces)
-    for _ in range(20):
-        look((0.0, 0.0, 8.0, 8.0))
-        look(VIEW)
-        made.passed(1.0)
-        made.choose(VIEW, 10.0)
-        assert made.bytes_per_second <= budget
-    assert sum(made.paces.values()) > sum(at_rest.values())
-    for _ in range(30):
-        made.passed(1.0)
-    made.choose(VIEW, 10.0)
-    assert made.paces == at_rest
+@pytest.mark.parametrize("budget", [20_000.0, 60_000.0])
+@pytest.mark.parametrize("speed", [0.0, 20.0, 40.0])
+def test_first_words_are_within_the_budget_of_a_view_that_moves(budget, speed):
+    """Of 800 bytes a region, told every 0.1 s by a server that hears of a change a round later."""
+    nodes = Nodes((0.0, 0.0, 682.0, 384.0), 5)
+    made = Interest(nodes, rate=10.0, balls=100_000, budget=budget)
+    wanted: dict[int, int] = {}
+    waits: list[int] = []
+    told_bytes = 0
+    before: dict[int, int] = {}
+    rounds = 150
+    for number in range(rounds):
+        x = 50.0 + speed * number / 10
+        view = (x, 100.0, x + 64.0, 136.0)
+        made.choose(view, 6.0)
+        asked, before = before, made.asked_for
+        wanted = {node: wanted.get(node, number) for node in made.paces}
+        for node, pace in asked.items():
+            if (number + node) >> pace != (number - 1 + node) >> pace:
+                told_bytes += 800
+                made.note(node, 800)
+                if node in wanted and wanted[node] >= 0:
+                    waits.append(number - wanted[node])
+                    wanted[node] = -1
+        if number % 5 == 4:
+            made.passed(0.5)
+    assert told_bytes / (rounds / 10) <= budget
+    assert sorted(waits)[len(waits) // 2] <= 5
