@@ -1,6 +1,6 @@
 //! Every pair. Nothing to go wrong: the judge of the other broadphases, and the fastest for a handful of balls.
 
-use super::{Broadphase, Discs, Found};
+use super::{Broadphase, Discs, Pair, Part};
 use crate::{Team, Vec2};
 
 #[derive(Default)]
@@ -20,8 +20,10 @@ impl Broadphase for Brute {
         );
     }
 
-    fn pairs(&mut self, discs: &Discs<'_>, _team: &Team, found: &mut Found) {
-        let found = found.single();
+    fn pairs_of(&self, discs: &Discs<'_>, part: Part, found: &mut Vec<Pair>) {
+        if part.number > 0 {
+            return;
+        }
         for second in 1..discs.len() {
             for first in 0..second {
                 if discs.overlap(first, second) {

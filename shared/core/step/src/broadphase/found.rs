@@ -1,7 +1,29 @@
 //! The pairs that a broadphase found: a list for each piece of the search, so that pieces can be searched at once.
 
+use std::ops::Range;
+
 use super::{Discs, Pair};
 use crate::team::Team;
+
+/// One of the equal parts that a search is cut into. Who cannot cut it does all of it in the first.
+#[derive(Clone, Copy, Debug)]
+pub struct Part {
+    /// Which one, from 0 on.
+    pub number: usize,
+    /// How many there are.
+    pub of: usize,
+}
+
+impl Part {
+    /// The heights of no discs at all.
+    pub(crate) const NOWHERE: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
+
+    /// What of so many falls to this part.
+    #[must_use]
+    pub fn range(self, count: usize) -> Range<usize> {
+        count * self.number / self.of..count * (self.number + 1) / self.of
+    }
+}
 
 /// Pairs, in the order in which they were found.
 #[derive(Default)]
@@ -18,15 +40,6 @@ impl Found {
         }
         self.lists.iter_mut().for_each(Vec::clear);
         &mut self.lists
-    }
-
-    /// The only list of a search in one piece, empty.
-    pub(crate) fn single(&mut self) -> &mut Vec<Pair> {
-        self.lists.iter_mut().for_each(Vec::clear);
-        if self.lists.is_empty() {
-            self.lists.push(Vec::new());
-        }
-        &mut self.lists[0]
     }
 
     /// Keeps only the pairs that do overlap.

@@ -89,6 +89,30 @@ impl Level {
         self.cell(self.across(point))
     }
 
+    /// Between these heights, at least, lie the centres of the discs in these cells and in the row above.
+    pub(super) fn heights(&self, first: usize, last: usize) -> (f64, f64) {
+        let row = |cell: usize| (cell - self.first) / self.stride as usize;
+        let height = |row: f64| self.origin.y + row * self.size;
+        let (low, high) = (row(first), row(last) + 1);
+        // A row more makes up for rounding. The outermost ones have all that is beyond them.
+        let bottom = if low == 0 {
+            f64::NEG_INFINITY
+        } else {
+            height(low as f64 - 1.0)
+        };
+        let top = if high + 1 >= self.rows as usize {
+            f64::INFINITY
+        } else {
+            height(high as f64 + 2.0)
+        };
+        (bottom, top)
+    }
+
+    /// How wide a cell is.
+    pub(super) fn size(&self) -> f64 {
+        self.size
+    }
+
     /// How this level's coordinates become f32.
     pub(super) fn scale(&self) -> Scale {
         Scale {

@@ -14,7 +14,7 @@ use super::levels::{Level, Levels};
 use super::relocated::Relocated;
 use super::runs::{Row, some_near};
 use super::sorted::{Probe, Sorted};
-use super::{Broadphase, Discs, Found, Pair, Reach, Settings};
+use super::{Broadphase, Discs, Pair, Part, Reach, Settings};
 use crate::{Team, Vec2};
 
 pub(super) struct LooseQuadtree {
@@ -212,15 +212,30 @@ impl Broadphase for LooseQuadtree {
         self.levels.populate(&self.offsets);
     }
 
-    fn pairs(&mut self, discs: &Discs<'_>, team: &Team, found: &mut Found) {
-        let lists = found.begin(team);
-        let (tree, pieces) = (&*self, lists.len());
-        team.each((lists, 0..pieces), 1, &|(lists, numbers)| {
-            for (list, number) in lists.iter_mut().zip(numbers) {
-                let slots = tree.count * number / pieces..tree.count * (number + 1) / pieces;
-                tree.search(&slots, discs, list);
+    fn pairs_of(&self, discs: &Discs<'_>, part: Part, found: &mut Vec<Pair>) {
+        self.search(&part.range(self.count), discs, found);
+    }
+
+    fn heights(&self, part: Part) -> (f64, f64) {
+        let slots = part.range(self.count);
+        let levels = self.levels.all();
+        let mut occupied = levels.iter().filter(|level| level.population > 0);
+        // A disc of another level is no further off than both cells reach.
+        let across = if occupied.clone().count() > 1 {
+            occupied.next_back().map_or(0.0, Level::size)
+        } else {
+            0.0
+        };
+        levels.iter().fold(Part::NOWHERE, |(low, high), level| {
+            let (first, end) = self.slots(level);
+            let slots = slots.start.max(first)..slots.end.min(end);
+            if slots.is_empty() {
+                return (low, high);
             }
-        });
+            let cells = (self.sorted.cell[slots.start], self.sorted.cell[slots.end - 1]);
+            let (bottom, top) = level.heights(cells.0 as usize, cells.1 as usize);
+            (low.min(bottom - across), high.max(top + across))
+        })
     }
 
     fn relocate(&mut self, index: usize, center: Vec2, reach: f64) {

@@ -17,7 +17,7 @@ mod runs;
 mod sorted;
 
 pub use discs::{Discs, Reach};
-pub use found::Found;
+pub use found::{Found, Part};
 
 use crate::{Team, Vec2};
 
@@ -32,8 +32,29 @@ pub trait Broadphase: Send + Sync {
     /// Takes in these discs in place of all earlier ones.
     fn build(&mut self, discs: &Discs<'_>, team: &Team);
 
-    /// Finds at least every pair of discs that overlap, each once, in any order. The discs are those of the last build.
-    fn pairs(&mut self, discs: &Discs<'_>, team: &Team, found: &mut Found);
+    /// Appends the pairs of a part of the search. All parts together find at least every pair of discs that overlap, each
+    /// once, in any order. The discs are those of the last build.
+    fn pairs_of(&self, discs: &Discs<'_>, part: Part, found: &mut Vec<Pair>);
+
+    /// Between these heights, at least, lie the centres of the discs that a part finds.
+    fn heights(&self, part: Part) -> (f64, f64) {
+        if part.number == 0 {
+            (f64::NEG_INFINITY, f64::INFINITY)
+        } else {
+            Part::NOWHERE
+        }
+    }
+
+    /// Finds the pairs of all parts.
+    fn pairs(&self, discs: &Discs<'_>, team: &Team, found: &mut Found) {
+        let lists = found.begin(team);
+        let of = lists.len();
+        team.each((lists, 0..of), 1, &|(lists, numbers)| {
+            for (list, number) in lists.iter_mut().zip(numbers) {
+                self.pairs_of(discs, Part { number, of }, list);
+            }
+        });
+    }
 
     /// Puts disc `index` elsewhere, with another reach.
     fn relocate(&mut self, index: usize, center: Vec2, reach: f64);

@@ -4,7 +4,7 @@
 //! node it has reached; one that sticks out of the root stays in the root's list. Leaves stop at a smallest size.
 //! Discs that moved into another node are removed and inserted; the rest of the tree stays.
 
-use super::{Broadphase, Discs, Found, Settings, slack};
+use super::{Broadphase, Discs, Pair, Part, Settings, slack};
 use crate::{Team, Vec2};
 
 const NONE: u32 = u32::MAX;
@@ -92,7 +92,6 @@ pub(super) struct Quadtree {
     depth: u32,
     nodes: Vec<Node>,
     places: Vec<Place>,
-    found: Vec<u32>,
 }
 
 impl Quadtree {
@@ -103,7 +102,6 @@ impl Quadtree {
             depth: 0,
             nodes: Vec::new(),
             places: Vec::new(),
-            found: Vec::new(),
         }
     }
 
@@ -213,11 +211,11 @@ impl Quadtree {
         self.places[index] = Place { node: new, bounds };
     }
 
-    fn visit(&self, at: u32, bounds: &Rectangle, found: &mut Vec<u32>) {
+    fn visit(&self, at: u32, bounds: &Rectangle, show: &mut impl FnMut(u32)) {
         let node = &self.nodes[at as usize];
         for &index in &node.list {
             if self.places[index as usize].bounds.touches(bounds) {
-                found.push(index);
+                show(index);
             }
         }
         for child in node.children {
@@ -226,10 +224,15 @@ impl Quadtree {
             }
             let below = &self.nodes[child as usize];
             if below.population > 0 && below.rectangle.touches(bounds) {
-                self.visit(child, bounds, found);
+                self.visit(child, bounds, show);
             }
         }
     }
+}
+
+/// Where a disc looks for others.
+fn looking_from(center: Vec2, reach: f64) -> Rectangle {
+    Rectangle::around(center, reach + slack(center, reach))
 }
 
 impl Broadphase for Quadtree {
@@ -253,19 +256,18 @@ impl Broadphase for Quadtree {
         }
     }
 
-    fn pairs(&mut self, discs: &Discs<'_>, _team: &Team, found: &mut Found) {
-        let found = found.single();
-        let mut near = std::mem::take(&mut self.found);
+    fn pairs_of(&self, discs: &Discs<'_>, part: Part, found: &mut Vec<Pair>) {
+        if part.number > 0 || self.nodes.is_empty() {
+            return;
+        }
         for index in 0..discs.len() {
-            near.clear();
-            self.query(discs.center[index], discs.reach.of(index), &mut near);
-            for &other in &near {
+            let around = looking_from(discs.center[index], discs.reach.of(index));
+            self.visit(0, &around, &mut |other| {
                 if (other as usize) > index && discs.overlap(index, other as usize) {
                     found.push((index as u32, other));
                 }
-            }
+            });
         }
-        self.found = near;
     }
 
     fn relocate(&mut self, index: usize, center: Vec2, reach: f64) {
@@ -274,7 +276,7 @@ impl Broadphase for Quadtree {
 
     fn query(&self, center: Vec2, reach: f64, found: &mut Vec<u32>) {
         if !self.nodes.is_empty() {
-            self.visit(0, &Rectangle::around(center, reach + slack(center, reach)), found);
+            self.visit(0, &looking_from(center, reach), &mut |index| found.push(index));
         }
     }
 

@@ -4,7 +4,7 @@ use super::paths::Paths;
 use super::queue::{Event, Party};
 use super::{predict, predict_walls};
 use crate::Balls;
-use crate::broadphase::{Discs, Found, Pair, Reach};
+use crate::broadphase::{Found, Pair, Part};
 use crate::contacts::Substep;
 use crate::walls::Walls;
 
@@ -12,31 +12,12 @@ use crate::walls::Walls;
 #[derive(Default)]
 pub(super) struct List {
     pub(super) events: Vec<Event>,
-    /// Between these heights the balls' discs have their centres.
-    pub(super) low: f64,
-    pub(super) high: f64,
 }
 
 impl List {
-    fn clear(&mut self) {
+    /// Predicts the collisions of pairs in place of what was there.
+    pub(super) fn predict(&mut self, paths: &Paths, balls: &Balls, pairs: &[Pair]) {
         self.events.clear();
-        (self.low, self.high) = (f64::INFINITY, f64::NEG_INFINITY);
-    }
-
-    fn push(&mut self, paths: &Paths, event: Event) {
-        let first = event.first as usize;
-        for index in [first, event.partner.as_ball().unwrap_or(first)] {
-            let height = paths.center[index].y;
-            if height.is_nan() {
-                (self.low, self.high) = (f64::NEG_INFINITY, f64::INFINITY);
-            }
-            self.low = self.low.min(height);
-            self.high = self.high.max(height);
-        }
-        self.events.push(event);
-    }
-
-    fn add_pairs(&mut self, paths: &Paths, balls: &Balls, pairs: &[Pair]) {
         for &(first, second) in pairs {
             let (first, second) = balls.in_id_order(first as usize, second as usize);
             let pieces = (
@@ -44,53 +25,76 @@ impl List {
                 &paths.first_piece(balls, second),
             );
             if let Some(time) = predict::pieces_of(paths, balls, (first, second), pieces) {
-                self.push(
-                    paths,
-                    Event::of_pair(time, unhit(balls, first), unhit(balls, second)),
-                );
+                self.events
+                    .push(Event::of_pair(time, unhit(balls, first), unhit(balls, second)));
             }
         }
+    }
+
+    /// Predicts the collisions of the balls of a part with walls, in place of what was there.
+    fn predict_walls(&mut self, paths: &Paths, balls: &Balls, walls: &Walls, part: Part) {
+        self.events.clear();
+        for index in part.range(balls.len()) {
+            if !walls.hold(paths.center[index], paths.reach[index]) {
+                let path = (&paths.first_piece(balls, index), unhit(balls, index));
+                predict_walls(paths, balls, walls, index, path, |event| self.events.push(event));
+            }
+        }
+    }
+
+    /// Between these heights the discs of its balls have their centres.
+    pub(super) fn heights(&self, paths: &Paths) -> (f64, f64) {
+        self.events.iter().fold(Part::NOWHERE, |(low, high), event| {
+            let height = paths.center[event.first as usize].y;
+            (low.min(height), high.max(height))
+        })
     }
 }
 
 #[derive(Default)]
 pub(super) struct First {
     found: Found,
-    lists: Vec<List>,
+    walls: Vec<List>,
+    pairs: Vec<List>,
 }
 
 impl First {
-    /// Finds all of them.
+    /// Puts all paths in the broadphase and predicts the collisions with walls.
+    pub(super) fn prepare(&mut self, paths: &mut Paths, substep: &mut Substep<'_>) {
+        let balls = &*substep.balls;
+        paths.sweep(balls, substep.team);
+        substep.broadphase.build(&paths.discs(), substep.team);
+        self.walls.iter_mut().for_each(|list| list.events.clear());
+        let Some(walls) = Walls::of(substep.rules) else {
+            return;
+        };
+        let of = substep.team.pieces();
+        self.walls.resize_with(of, List::default);
+        let (paths, whole) = (&*paths, (&mut self.walls[..], 0..of));
+        substep.team.each(whole, 1, &|(lists, numbers)| {
+            for (list, number) in lists.iter_mut().zip(numbers) {
+                list.predict_walls(paths, balls, &walls, Part { number, of });
+            }
+        });
+    }
+
+    /// Finds all pairs and predicts their collisions.
     pub(super) fn predict(&mut self, paths: &mut Paths, substep: &mut Substep<'_>) {
         let balls = &*substep.balls;
-        let walls = Walls::of(substep.rules);
-        paths.sweep(balls, substep.team);
-        let discs = Discs {
-            center: &paths.center,
-            reach: Reach::Each(&paths.reach),
-        };
-        substep.broadphase.build(&discs, substep.team);
-        substep.broadphase.pairs(&discs, substep.team, &mut self.found);
+        substep
+            .broadphase
+            .pairs(&paths.discs(), substep.team, &mut self.found);
         if paths.notes_touches() {
             for (first, second) in self.found.iter() {
                 paths.note_touch(balls, first as usize, second as usize);
             }
         }
         let (paths, found) = (&*paths, self.found.lists());
-        self.lists.resize_with(found.len(), List::default);
-        let pieces = (&mut self.lists[..], found, 0..found.len());
-        let (count, parts) = (balls.len(), found.len());
-        substep.team.each(pieces, 1, &|(lists, found, parts_here)| {
-            for ((list, pairs), part) in lists.iter_mut().zip(found).zip(parts_here) {
-                list.clear();
-                list.add_pairs(paths, balls, pairs);
-                let Some(walls) = &walls else { continue };
-                for index in count * part / parts..count * (part + 1) / parts {
-                    if !walls.hold(paths.center[index], paths.reach[index]) {
-                        let path = (&paths.first_piece(balls, index), unhit(balls, index));
-                        predict_walls(paths, balls, walls, index, path, |event| list.push(paths, event));
-                    }
-                }
+        self.pairs.resize_with(found.len(), List::default);
+        let whole = (&mut self.pairs[..], found);
+        substep.team.each(whole, 1, &|(lists, found)| {
+            for (list, pairs) in lists.iter_mut().zip(found) {
+                list.predict(paths, balls, pairs);
             }
         });
     }
@@ -100,12 +104,20 @@ impl First {
         self.found.count()
     }
 
-    pub(super) fn lists(&self) -> &[List] {
-        &self.lists
+    /// How many collisions were predicted.
+    pub(super) fn events(&self) -> usize {
+        let lists = self.walls.iter().chain(&self.pairs);
+        lists.map(|list| list.events.len()).sum()
     }
 
-    pub(super) fn lists_mut(&mut self) -> &mut [List] {
-        &mut self.lists
+    /// Those with walls.
+    pub(super) fn walls(&self) -> &[List] {
+        &self.walls
+    }
+
+    /// All of them.
+    pub(super) fn lists_mut(&mut self) -> impl Iterator<Item = &mut List> {
+        self.walls.iter_mut().chain(&mut self.pairs)
     }
 }
 

@@ -59,15 +59,19 @@ impl Contacts for EventDriven {
 
     fn advance(&mut self, substep: &mut Substep<'_>) -> Result<(), Error> {
         self.begin(substep);
-        self.first.predict(&mut self.paths, substep);
-        spend(substep, self.first.pairs())?;
+        self.first.prepare(&mut self.paths, substep);
         if let Some(grouped) = &mut self.grouped
-            && grouped.run(&self.paths, substep, self.first.lists())
+            && grouped.run(&self.paths, substep, self.first.walls())
         {
             *substep.finite = true;
             return Ok(());
         }
         *substep.finite = false;
+        self.first.predict(&mut self.paths, substep);
+        spend(substep, self.first.pairs())?;
+        if let Some(grouped) = &mut self.grouped {
+            grouped.note(substep.balls.len(), self.first.events());
+        }
         substep.last.keep(substep.balls, substep.team);
         self.sequence
             .run(&mut self.paths, substep, self.first.lists_mut())?;

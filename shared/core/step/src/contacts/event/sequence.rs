@@ -19,17 +19,16 @@ pub(super) struct Sequence {
 
 impl Sequence {
     /// Does all collisions; `predicted` are those at the start, which are taken out.
-    pub(super) fn run(
+    pub(super) fn run<'a>(
         &mut self,
         paths: &mut Paths,
         substep: &mut Substep<'_>,
-        predicted: &mut [List],
+        predicted: impl Iterator<Item = &'a mut List>,
     ) -> Result<(), Error> {
         let walls = Walls::of(substep.rules);
         let law = Law::new(paths.motion, substep.rules.restitution(), substep.dt);
         paths.follow_hits(substep.balls);
-        self.queue
-            .begin(predicted.iter_mut().map(|list| &mut list.events));
+        self.queue.begin(predicted.map(|list| &mut list.events));
         let mut count = 0;
         while let Some(event) = self.queue.next(&paths.hits) {
             count += 1;

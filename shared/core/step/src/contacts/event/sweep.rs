@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::paths::{Motion, Paths};
 use super::piece::{radius, widen};
+use crate::broadphase::{Discs, Reach};
 use crate::team::{GRAIN, Team};
 use crate::{Balls, Vec2};
 
@@ -18,6 +19,14 @@ pub(super) fn is_moderate(center: Vec2, reach: f64, velocity: Vec2) -> bool {
 }
 
 impl Paths {
+    /// The discs, for a broadphase.
+    pub(super) fn discs(&self) -> Discs<'_> {
+        Discs {
+            center: &self.center,
+            reach: Reach::Each(&self.reach),
+        }
+    }
+
     /// Discs around all paths, as they are at the start of the substep.
     pub(super) fn sweep(&mut self, balls: &Balls, team: &Team) {
         let (mut center, mut reach) = (std::mem::take(&mut self.center), std::mem::take(&mut self.reach));

@@ -1,6 +1,7 @@
 //! However pairs are found, in pieces or not, they are treated as if one after the other in order of (lower id, higher id).
 
 use super::*;
+use crate::broadphase::Part;
 use crate::order::Order;
 use crate::{NewBall, Vec2};
 use proptest::prelude::*;
@@ -11,12 +12,8 @@ struct Told(Vec<Pair>);
 impl Broadphase for Told {
     fn build(&mut self, _: &Discs<'_>, _: &Team) {}
 
-    fn pairs(&mut self, _: &Discs<'_>, team: &Team, found: &mut Found) {
-        let lists = found.begin(team);
-        let pieces = lists.len();
-        for (at, &pair) in self.0.iter().enumerate() {
-            lists[at % pieces].push(pair);
-        }
+    fn pairs_of(&self, _: &Discs<'_>, part: Part, found: &mut Vec<Pair>) {
+        found.extend(self.0.iter().skip(part.number).step_by(part.of));
     }
 
     fn relocate(&mut self, _: usize, _: Vec2, _: f64) {}

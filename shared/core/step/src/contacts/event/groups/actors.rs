@@ -14,6 +14,8 @@ pub(super) const NONE: u32 = u32::MAX;
 pub(super) const WAITING: u32 = u32::MAX;
 /// Nor this one: it is left for after the strips.
 pub(super) const DEFERRED: u32 = u32::MAX - 1;
+/// Nor this one: it waits for events that are not yet known.
+pub(super) const EARLY: u32 = u32::MAX - 2;
 
 /// For each ball, its actor. A strip's threads write to the places of the balls in it, and take what others write for
 /// nothing.

@@ -4,7 +4,7 @@ use super::super::piece::{Piece, radius};
 use super::super::predict_walls;
 use super::super::queue::Event;
 use super::super::sweep::is_moderate;
-use super::actors::{DEFERRED, NONE, WAITING, meeting};
+use super::actors::{DEFERRED, EARLY, NONE, WAITING, meeting};
 use super::ground::{Beyond, Ground};
 use super::run::Halt;
 use super::set::Groups;
@@ -86,7 +86,7 @@ impl Groups {
         let (paths, balls) = (ground.paths, ground.balls);
         let partner = if let Some(partner) = self.find(ground, other) {
             let group = self.actors.all[partner].group;
-            if group != self.running() && group != WAITING && group != DEFERRED {
+            if group != self.running() && !matches!(group, WAITING | EARLY | DEFERRED) {
                 let meets = self.actors.meet(paths, balls, (ball, piece), partner);
                 return if meets { Err(Halt::Met(partner)) } else { Ok(()) };
             }
@@ -115,14 +115,17 @@ impl Groups {
         };
         let partner = match partner {
             Some(partner) => match self.actors.all[partner].group {
-                WAITING => return Err(Halt::Met(partner)),
+                WAITING | EARLY => return Err(Halt::Met(partner)),
                 DEFERRED => return Err(Halt::Leaves),
                 _ => partner,
             },
             None if !self.holds(ground, other) => return Err(Halt::Leaves),
             None => {
                 let partner = self.find_or_enlist(ground, other);
-                self.join(partner);
+                self.join(ground, partner);
+                if self.is_early {
+                    return Err(Halt::Early);
+                }
                 partner
             }
         };

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::super::queue::Event;
-use super::actors::{DEFERRED, NONE, WAITING};
+use super::actors::{DEFERRED, EARLY, NONE, WAITING};
 use super::chains::slots;
 use super::ground::{Beyond, Ground};
 use super::set::{Done, Group, Groups};
@@ -15,22 +15,23 @@ impl Groups {
     }
 
     /// Takes an actor into the group, with all that hang together with it by predicted events.
-    pub(super) fn claim(&mut self, slot: usize) {
+    pub(super) fn claim(&mut self, ground: &Ground<'_>, slot: usize) {
         let running = self.running();
         if self.actors.all[slot].group == running {
             return;
         }
         let mut at = self.own.len();
-        self.join(slot);
+        self.join(ground, slot);
         while at < self.own.len() {
             let actor = self.actors.all[self.own[at] as usize];
             for event in self.chains.of(&actor) {
                 for slot in slots(event) {
-                    let other = &mut self.actors.all[slot].group;
-                    if *other != running {
-                        debug_assert_eq!(*other, WAITING);
-                        *other = running;
+                    let other = &mut self.actors.all[slot];
+                    if other.group != running {
+                        debug_assert!(matches!(other.group, WAITING | EARLY));
+                        other.group = running;
                         self.own.push(slot as u32);
+                        self.is_early |= ground.paths.center[other.ball as usize].y >= self.known;
                     }
                 }
             }
@@ -38,9 +39,30 @@ impl Groups {
         }
     }
 
-    pub(super) fn join(&mut self, slot: usize) {
-        self.actors.all[slot].group = self.running();
+    pub(super) fn join(&mut self, ground: &Ground<'_>, slot: usize) {
+        let running = self.running();
+        let actor = &mut self.actors.all[slot];
+        actor.group = running;
         self.own.push(slot as u32);
+        self.is_early |= ground.paths.center[actor.ball as usize].y >= self.known;
+    }
+
+    /// Begins a group.
+    pub(super) fn begin_own(&mut self) {
+        self.own.clear();
+        self.is_early = false;
+    }
+
+    /// Leaves the group for when more is known.
+    pub(super) fn wait(&mut self, ground: &Ground<'_>) {
+        self.put_back_own(ground);
+        for &slot in &self.own {
+            let actor = &mut self.actors.all[slot as usize];
+            if actor.links != NONE {
+                actor.group = EARLY;
+                self.early.push(slot);
+            }
+        }
     }
 
     /// Puts the group back to the start of the substep; all that is left of it are those that have predicted events.
@@ -64,8 +86,9 @@ impl Groups {
     /// The group, which has been put back, begins again together with that of an actor.
     pub(super) fn merge(&mut self, ground: &Ground<'_>, slot: usize) {
         self.seeds.append(&mut self.own);
+        self.begin_own();
         match self.actors.all[slot].group {
-            WAITING => self.seeds.push(slot as u32),
+            WAITING | EARLY => self.seeds.push(slot as u32),
             number => {
                 for at in self.reopen(number) {
                     let slot = self.members[at];
@@ -75,7 +98,7 @@ impl Groups {
                 }
             }
         }
-        self.claim_seeds();
+        self.claim_seeds(ground);
     }
 
     /// The same with a group of another strip, whose predicted events these take over.
@@ -89,6 +112,7 @@ impl Groups {
         let Beyond::Open(_, strips) = beyond else { return };
         let other = &mut strips[strip];
         self.seeds.append(&mut self.own);
+        self.begin_own();
         for at in other.reopen(other.actors.all[slot].group) {
             let slot = other.members[at] as usize;
             other.put_back(ground, slot);
@@ -98,12 +122,12 @@ impl Groups {
                     .extend(self.chains.events.last().map(|event| event.first));
             }
         }
-        self.claim_seeds();
+        self.claim_seeds(ground);
     }
 
-    pub(super) fn claim_seeds(&mut self) {
+    pub(super) fn claim_seeds(&mut self, ground: &Ground<'_>) {
         while let Some(slot) = self.seeds.pop() {
-            self.claim(slot as usize);
+            self.claim(ground, slot as usize);
         }
     }
 

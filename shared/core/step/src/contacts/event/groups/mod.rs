@@ -6,11 +6,15 @@
 //! another, the two are not independent: both are put back to the start of the substep and run again as one. The result
 //! is that of the order of all times, because a collision time is computed from two pieces of path alone.
 //!
+//! Batches of pairs are looked for, and predicted, just before the groups that begin with them run: what one reads, the
+//! next finds in the cache. A group with a ball that later batches may know of waits for those.
+//!
 //! Strips of the plane run at once. In a strip are the balls that stay in it, however they are hit, unless they get
 //! beyond a slack around the discs of their first paths; so balls of two strips never meet. Groups that need other balls
 //! or more slack are left, and run after the strips, when they may meet, and take over, any group of theirs.
 
 mod actors;
+mod batches;
 mod chains;
 mod follow;
 mod ground;
@@ -28,6 +32,7 @@ use crate::team::GRAIN;
 use crate::walls::Walls;
 
 use actors::{NONE, Whereabouts};
+use batches::{BATCH, Batches};
 use ground::{Beyond, Ground};
 use set::{Groups, LEFT, Tally};
 use strips::{Strip, Strips};
@@ -44,7 +49,10 @@ pub(super) struct Grouped {
     /// Balls of a strip, at least.
     grain: usize,
     least_room: usize,
+    /// There was too little room when somebody last looked. It decides about time alone, as both ways give the same.
+    crowded: bool,
     strips: Strips,
+    batches: Batches,
     whereabouts: Whereabouts,
     groups: Vec<Groups>,
     left: Groups,
@@ -54,6 +62,7 @@ impl Default for Grouped {
     fn default() -> Grouped {
         Grouped {
             least_room: LEAST_ROOM,
+            batches: Batches::of(BATCH),
             ..Grouped::with_strips_of(STRIP_GRAIN)
         }
     }
@@ -65,6 +74,8 @@ impl Grouped {
         Grouped {
             grain,
             least_room: 0,
+            crowded: false,
+            batches: Batches::of(grain.div_ceil(4)),
             strips: Strips::default(),
             whereabouts: Whereabouts::default(),
             groups: Vec::new(),
@@ -75,20 +86,22 @@ impl Grouped {
     /// Runs all groups, to the end of the substep. False if the order of all times has to do it, for which nothing has
     /// changed: contacts at rest, and forces between kicks, make everything hang together. Where it is true, all balls
     /// have finite places and velocities.
-    pub(super) fn run(&mut self, paths: &Paths, substep: &mut Substep<'_>, predicted: &[List]) -> bool {
+    pub(super) fn run(&mut self, paths: &Paths, substep: &mut Substep<'_>, walls: &[List]) -> bool {
         let suits = match paths.motion {
             Motion::Straight => true,
             Motion::Curved => substep.rules.restitution() == 1.0,
             Motion::Kicked => false,
         };
         let count = substep.balls.len();
-        let events: usize = predicted.iter().map(|list| list.events.len()).sum();
-        if !suits || !paths.is_moderate || count < self.least_room * events || count >= LEFT as usize {
+        if !suits || !paths.is_moderate || self.crowded || count >= LEFT as usize {
             return false;
         }
         let strips = substep.team.pieces().min(count.div_ceil(self.grain)).max(1);
-        let tally = self.run_strips(strips, paths, substep, predicted);
+        self.batches.lay_out(paths, substep, walls);
+        let tally = self.run_strips(strips, paths, substep, walls);
         if let Some(tally) = tally {
+            let events: usize = self.groups.iter().map(Groups::predicted).sum();
+            self.note(count, events);
             *substep.budget -= tally.pairs;
             substep.counters.collisions += tally.collisions;
             substep.counters.wall_hits += tally.wall_hits;
@@ -97,13 +110,18 @@ impl Grouped {
         tally.is_some()
     }
 
+    /// Notes how many collisions were predicted among so many balls.
+    pub(super) fn note(&mut self, balls: usize, events: usize) {
+        self.crowded = balls < self.least_room * events;
+    }
+
     /// What the groups did, in so many strips; None if it was taken back.
     fn run_strips(
         &mut self,
         count: usize,
         paths: &Paths,
         substep: &mut Substep<'_>,
-        predicted: &[List],
+        walls: &[List],
     ) -> Option<Tally> {
         let balls = &*substep.balls;
         self.strips.lay_out(paths, balls, count);
@@ -119,12 +137,12 @@ impl Grouped {
             budget: *substep.budget,
         };
         let broadphase = &*substep.broadphase;
+        let batches = &self.batches;
         let whole = (&mut self.groups[..], 0..count);
         substep.team.each(whole, 1, &|(groups, numbers)| {
             for (groups, number) in groups.iter_mut().zip(numbers) {
                 groups.begin(ground.strips.strip(number), number, 0);
-                groups.take_all(&ground, predicted);
-                groups.run(&ground, &mut Beyond::Closed(broadphase));
+                batches.run(groups, &ground, broadphase, walls);
             }
         });
         self.left.begin(Strip::ALL, count, LEFT);

@@ -3,15 +3,10 @@
 use super::super::contact::Fate;
 use super::super::piece::Piece;
 use super::super::queue::Event;
-use super::actors::WAITING;
+use super::actors::{EARLY, WAITING};
 use super::ground::{Beyond, Ground};
 use super::set::{Done, Groups};
 use crate::contacts::exchange::normal;
-
-/// Events that are done, again or not, for each that was predicted, before the order of all times costs less.
-const PATIENCE: u64 = 3;
-/// The same, whatever was predicted.
-const LEAST_PATIENCE: u64 = 1000;
 
 /// Why a group did not run to the end.
 pub(super) enum Halt {
@@ -19,6 +14,8 @@ pub(super) enum Halt {
     Met(usize),
     /// It met this actor of another strip.
     MetElsewhere(usize, usize),
+    /// It has a ball that events which are not yet known may concern.
+    Early,
     /// It leaves the strip.
     Leaves,
     /// A contact is about to rest, a number grows beyond all bounds, or there are too many events: that is for the order of
@@ -27,45 +24,51 @@ pub(super) enum Halt {
 }
 
 impl Groups {
-    /// Runs all groups.
+    /// Runs all groups whose balls' events are known, and have not been seen to.
     pub(super) fn run(&mut self, ground: &Ground<'_>, beyond: &mut Beyond<'_>) {
-        if self.stuck {
+        let mut woken = std::mem::take(&mut self.woken);
+        std::mem::swap(&mut self.early, &mut woken);
+        for &slot in &woken {
+            let group = &mut self.actors.all[slot as usize].group;
+            if *group == EARLY {
+                *group = WAITING;
+            }
+        }
+        for slot in woken.drain(..) {
+            self.run_group_of(ground, beyond, slot as usize);
+        }
+        self.woken = woken;
+        while self.seen < self.chains.events.len() {
+            let first = self.chains.events[self.seen].first as usize;
+            self.seen += 1;
+            self.run_group_of(ground, beyond, first);
+        }
+    }
+
+    /// Runs the group of an actor to its end, with all that it meets, unless it has run or waits.
+    fn run_group_of(&mut self, ground: &Ground<'_>, beyond: &mut Beyond<'_>, first: usize) {
+        if self.stuck || self.actors.all[first].group != WAITING {
             return;
         }
-        self.patience = LEAST_PATIENCE + PATIENCE * self.chains.events.len() as u64;
-        self.patience = self.patience.min(u64::from(u32::MAX));
-        let mut number = 0;
-        while number < self.chains.events.len() {
-            let first = self.chains.events[number].first as usize;
-            number += 1;
-            if self.actors.all[first].group != WAITING {
-                continue;
-            }
-            self.own.clear();
-            self.claim(first);
-            loop {
-                let mut done = Done::default();
-                match self.run_group(ground, beyond, &mut done) {
-                    Ok(()) => {
-                        self.close(done);
-                        break;
-                    }
-                    Err(Halt::Met(slot)) => {
-                        self.put_back_own(ground);
-                        self.merge(ground, slot);
-                    }
-                    Err(Halt::MetElsewhere(strip, slot)) => {
-                        self.put_back_own(ground);
-                        self.merge_from(ground, beyond, strip, slot);
-                    }
-                    Err(Halt::Leaves) if matches!(beyond, Beyond::Closed(..)) => {
-                        self.defer(ground);
-                        break;
-                    }
-                    Err(Halt::Leaves | Halt::Stuck) => {
-                        self.stuck = true;
-                        return;
-                    }
+        self.begin_own();
+        self.claim(ground, first);
+        loop {
+            let mut done = Done::default();
+            match self.run_group(ground, beyond, &mut done) {
+                Ok(()) => return self.close(done),
+                Err(Halt::Met(slot)) => {
+                    self.put_back_own(ground);
+                    self.merge(ground, slot);
+                }
+                Err(Halt::MetElsewhere(strip, slot)) => {
+                    self.put_back_own(ground);
+                    self.merge_from(ground, beyond, strip, slot);
+                }
+                Err(Halt::Early) => return self.wait(ground),
+                Err(Halt::Leaves) if matches!(beyond, Beyond::Closed(..)) => return self.defer(ground),
+                Err(Halt::Leaves | Halt::Stuck) => {
+                    self.stuck = true;
+                    return;
                 }
             }
         }
@@ -77,6 +80,9 @@ impl Groups {
         beyond: &mut Beyond<'_>,
         done: &mut Done,
     ) -> Result<(), Halt> {
+        if self.is_early {
+            return Err(Halt::Early);
+        }
         self.queue.clear();
         for &slot in &self.own {
             let actor = &self.actors.all[slot as usize];

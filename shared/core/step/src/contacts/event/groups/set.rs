@@ -8,9 +8,15 @@ use super::actors::{Actors, NONE};
 use super::chains::Chains;
 use super::ground::Ground;
 use super::strips::Strip;
+use crate::broadphase::{Broadphase, Pair, Part};
 
 /// The mark of what the strips have left.
 pub(super) const LEFT: u32 = 1 << 31;
+
+/// Events that are done, again or not, for each that was predicted, before the order of all times costs less.
+const PATIENCE: u64 = 3;
+/// The same, whatever was predicted.
+const LEAST_PATIENCE: u64 = 1000;
 
 /// What groups did; counted once nobody can take it back.
 #[derive(Clone, Copy, Debug, Default)]
@@ -66,6 +72,18 @@ pub(super) struct Groups {
     pub(super) near: Vec<u32>,
     /// Events, of balls, that are left for after the strips.
     pub(super) deferred: Vec<Event>,
+    /// All events of balls below this height are among the predicted ones.
+    pub(super) known: f64,
+    /// The group that runs has a ball above it.
+    pub(super) is_early: bool,
+    /// How many of the predicted events have been seen to.
+    pub(super) seen: usize,
+    /// Actors of groups that wait for what is not yet known.
+    pub(super) early: Vec<u32>,
+    pub(super) woken: Vec<u32>,
+    /// What a batch found, and predicted.
+    found: Vec<Pair>,
+    list: List,
     /// How many more events may be done.
     pub(super) patience: u64,
     /// Events that were done, and pairs that were looked at, taken back or not.
@@ -82,6 +100,10 @@ impl Groups {
         self.groups.clear();
         self.members.clear();
         self.deferred.clear();
+        self.early.clear();
+        self.known = f64::INFINITY;
+        self.seen = 0;
+        self.patience = LEAST_PATIENCE;
         self.looked_at = 0;
         self.stuck = false;
     }
@@ -100,6 +122,7 @@ impl Groups {
             let first = self.find_or_enlist(ground, first);
             let second = second.map(|ball| self.find_or_enlist(ground, ball));
             self.chains.add(event.between(first, second), &mut self.actors);
+            self.patience = (self.patience + PATIENCE).min(u64::from(u32::MAX));
             return;
         }
         if is_marked {
@@ -118,15 +141,27 @@ impl Groups {
         }
     }
 
-    /// Takes in all predicted events of this strip.
-    pub(super) fn take_all(&mut self, ground: &Ground<'_>, predicted: &[List]) {
-        for list in predicted {
-            if self.strip.meets(list.low, list.high) {
-                for event in &list.events {
-                    self.take(ground, event);
-                }
-            }
+    /// Takes in those events of a list that are of this strip.
+    pub(super) fn take_all(&mut self, ground: &Ground<'_>, list: &List) {
+        for event in &list.events {
+            self.take(ground, event);
         }
+    }
+
+    /// The same for what a part of the search finds.
+    pub(super) fn search(&mut self, ground: &Ground<'_>, broadphase: &dyn Broadphase, part: Part) {
+        let mut list = std::mem::take(&mut self.list);
+        self.found.clear();
+        broadphase.pairs_of(&ground.paths.discs(), part, &mut self.found);
+        self.looked_at += self.found.len() as u64;
+        list.predict(ground.paths, ground.balls, &self.found);
+        self.take_all(ground, &list);
+        self.list = list;
+    }
+
+    /// How many events were predicted.
+    pub(super) fn predicted(&self) -> usize {
+        self.chains.events.len() + self.deferred.len()
     }
 
     /// Whether a ball stays in the strip, however it is hit, unless it is relocated.
