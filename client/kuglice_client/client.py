@@ -103,9 +103,9 @@ class Client(Closing):
             self._rejoin(epoch)
         replica = self.replica
         replica.heal(now)
-        self.renewal.turn(
-            now, silent=replica.stream.silent(now), answered=replica.healing.brought is not None
-        )
+        answered = replica.healing.brought is not None
+        if self.renewal.turn(now, silent=replica.stream.silent(now), answered=answered):
+            replica.clock.relinked(now, in_order="udp" not in self.link.kinds)
         self.screen.alpha = replica.advance(now)
         return self.screen.alpha
 

@@ -58,7 +58,7 @@ class Clock:
         self._origins: deque[float] = deque([now - tick / rate], maxlen=ARRIVALS)
         self._origin = self._origins[0]
         self._needed: deque[tuple[float, float]] = deque(maxlen=REPORTS)
-        self._resumed_at = now
+        self._resumed_at = self._counted_since = now
         self._moved_to = now
         self._at: float | None = None
         self._last = 0.0
@@ -92,13 +92,19 @@ class Clock:
         """A query took that many seconds."""
         self._trips.append(round_trip)
 
+    def relinked(self, now: float, *, in_order: bool) -> None:
+        """The link is another one now: what inputs asked for on the last says nothing of it."""
+        self._in_order, self._counted_since = in_order, now
+        self._needed.clear()
+
     def heard(self, next_tick: int, now: float) -> None:
         """The stream told everything before `next_tick`, just now."""
         origin = now - next_tick / self._rate
         silent = now - self._heard_at > STALL_SECONDS
         if silent or origin - self._origin > STALL_SECONDS:
             self.snaps += not self._jump
-            self._jump, self._resumed_at = True, now
+            self._jump = True
+            self._resumed_at = self._counted_since = now
             self._needed.clear()
         if self._jump:
             # What has waited, for us to join or for the link to return, says nothing about jitter.
@@ -113,8 +119,8 @@ class Clock:
 
         It was `made` at that time, in seconds, with that `lead`.
         """
-        if made < self._resumed_at or early < -STALL_SECONDS * self._rate:
-            # Held up by a stall: no lead would have been enough, nor is one needed from now on.
+        if made < self._counted_since or early < -STALL_SECONDS * self._rate:
+            # Held up by a stall, or by a link that is gone: no lead would have been enough, nor is one needed now.
             return
         self._needed.append((self._heard_at, lead - early))
         self._want(self._heard_at)
@@ -126,7 +132,7 @@ class Clock:
         passed = (until - self._moved_to) * self._rate
         self._moved_to = until
         wanted = self._stream(until) + self._wanted_lead
-        if self._at is None or self._jump or abs(wanted - self._at) > STALL_SECONDS * self._rate:
+        if self._at is None or self._jump:
             self._at, self._jump = wanted, False
         else:
             fastest = max(wanted, self._at) if until - self._resumed_at < SETTLING_SECONDS else self._at

@@ -140,6 +140,37 @@ def test_however_messages_come_it_never_runs_backwards_nor_much_faster_or_slower
         last = target
 
 
+@given(st.lists(st.tuples(st.integers(-30, 30), st.floats(0.0, 60.0)), max_size=20))
+def test_whatever_is_reported_it_gets_there_at_2_percent_and_never_jumps(reports):
+    one = clock(round_trip=0.03)
+    last = None
+    for n in range(300):
+        now = n / RATE
+        one.heard(n + 1, now)
+        if reports and n >= SETTLING_SECONDS * RATE:
+            early, lead = reports[n % len(reports)]
+            one.reported(early, lead=lead, made=now)
+        target = one.target(now)
+        if last is not None and now > SETTLING_SECONDS:
+            assert 1 - SLEW - 1e-6 <= target - last <= 1 + SLEW + 1e-6
+        last = target
+    assert one.snaps == 0
+
+
+def test_what_was_needed_on_a_link_that_is_gone_is_forgotten():
+    """Over tcp alone one lost segment asks for a round trip more; 256 reports long datagrams would have paid for it."""
+    one = clock(round_trip=0.3)
+    for n in range(400):
+        one.heard(n + 1, n / RATE)
+        one.target(n / RATE)
+        one.reported(-12 if n == 300 else 12, lead=40.0, made=n / RATE)
+    assert one.wanted_lead == 52.0 + SAFETY_TICKS
+    one.relinked(400 / RATE, in_order=False)
+    one.reported(-12, lead=40.0, made=399 / RATE)
+    one.heard(401, 400 / RATE)
+    assert one.wanted_lead == pytest.approx(SAFETY_TICKS + REPEAT_TICKS + 0.3 * RATE, abs=0.1)
+
+
 def test_without_news_it_does_not_run_away():
     one = clock()
     for n in range(60):
