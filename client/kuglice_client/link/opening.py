@@ -98,7 +98,8 @@ class Opening:
                 if is_taken:
                     self._session = session
             if not is_taken:
-                close_session(session, [])
+                # Closing takes 5 s on a bad link, in which another try may be open.
+                close_session(session, [], timeout=0.0)
             if crippled:
                 raise ProtocolError("only datagrams came up, and questions need a stream")
         except ProtocolError as error:
