@@ -89,6 +89,9 @@ class Intake:
             self._counters.add("other_epoch")
             return
         player.heard = max(player.heard or 0, min(message.heard, world.tick))
+        if player.away_since is not None:
+            # Of two sessions of one client the old one's end may be told last. Whoever is heard is waited for on.
+            player.away_since = world.tick
         for sent in message.inputs:
             self._take(player, sent, world, heard=message.heard)
 

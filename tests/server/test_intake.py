@@ -32,7 +32,7 @@ class Desk:
     def __init__(self, per_tick: int = 4) -> None:
         scene = small_arena(per_tick=per_tick)
         self.world = World(scene)
-        players = Players(scene, grace=300)
+        self.players = players = Players(scene, grace=300)
         self.counters = Counters()
         self.told: list[Ack] = []
         self.intake = Intake(scene, players, epoch=EPOCH, horizon=HORIZON, counters=self.counters)
@@ -263,3 +263,15 @@ def test_what_a_client_has_heard_is_remembered_and_never_more_than_there_is(desk
     for heard, remembered in ((1, 1), (0, 1), (99, desk.world.tick)):
         desk.raw(encode(ClientInputs(epoch=EPOCH, heard=heard, inputs=[])))
         assert desk.player.heard == remembered
+
+
+def test_whoever_is_heard_is_waited_for_on():
+    """Regression: the end of a client's old session may be told after its new one, which then was given up, playing."""
+    desk = Desk()
+    desk.players.depart("ana", SESSION, desk.world.tick)
+    desk.world.run(299)
+    desk.send()
+    desk.world.run(299)
+    assert desk.players.authored(desk.world) == []
+    desk.world.run(1)
+    assert [type(one) for one in desk.players.authored(desk.world)] == [Leave]
