@@ -6,12 +6,17 @@ session is told so after a moment. All wait beside each other, so that one that 
 
 from __future__ import annotations
 
+import logging
 import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import zenoh
+
 __all__ = ["Arrivals"]
+
+log = logging.getLogger(__name__)
 
 SETTLE_SECONDS = 0.1
 """How long one who has just shown itself is waited for; one who is not let in by then asks again."""
@@ -86,4 +91,8 @@ class Arrivals:
         with self._lock:
             self._waiting = [one for one in self._waiting if one not in due]
         for one in due:
-            one.answer()
+            try:
+                one.answer()
+            except zenoh.ZError as error:
+                # Its link is gone; the others wait still.
+                log.error("an arrival is not answered: %s", error)

@@ -61,9 +61,11 @@ class View(Closing):
         try:
             waiting = Waiting(self.link, deadline=deadline, stop=self.stop)
             self._keys = Keys(settings.world or find_world(waiting))
-            self.subscriptions = Subscriptions(self.link.session, self._keys)
             self._inquiry = Inquiry(self.link, self._keys)
-            self._enter(self._inquiry.wait(waiting))
+            about = self._inquiry.wait(waiting)
+            # Only now: while it waited, the link may have taken another session.
+            self.subscriptions = Subscriptions(self.link.session, self._keys)
+            self._enter(about)
             self._arrive()
         except BaseException:
             self.close()

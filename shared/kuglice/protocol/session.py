@@ -174,7 +174,10 @@ def close_session(session: zenoh.Session, declared: Iterable[Declared], *, timeo
             except zenoh.ZError as error:
                 # Where the link is lost there is nobody to withdraw it from; the session is to be closed all the same.
                 log.debug("%s", error)
-        session.close()  # type: ignore[no-untyped-call]
+        try:
+            session.close()  # type: ignore[no-untyped-call]
+        except zenoh.ZError as error:
+            log.debug("%s", error)
 
     # Closing is known to hang on a bad link, and then nothing but a thread of its own lets us go on.
     thread = aside(close, "close zenoh session")
