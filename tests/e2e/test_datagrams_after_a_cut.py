@@ -15,7 +15,8 @@ from e2e.processes import until
 from kuglice.lab.network import Conditions, open_link
 from kuglice.lab.network.tun_device import why_impossible
 
-BAD = Conditions(round_trip=0.15, jitter=0.2, loss=0.02, seed=7)
+# Messages overtake each other by jitter alone; what opens a link of datagrams is sent once, and must not be lost.
+BAD = Conditions(round_trip=0.15, jitter=0.2, loss=0.0, seed=7)
 CUT_SECONDS = 5.0
 PLAYERS = ("ana", "bob", "eva")
 

@@ -52,4 +52,4 @@ def test_a_session_receives_with_many_threads_unless_told_otherwise(told, thread
         check=True,
     )
     # Zenoh starts others where some of them wait.
-    assert threads <= int(done.stdout) < threads + 8
+    assert threads <= int(done.stdout)
