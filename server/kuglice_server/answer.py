@@ -54,6 +54,7 @@ class Answers:
         keys: Keys,
         *,
         epoch: int,
+        hash_every: int,
         about: Callable[[], About],
         view: Callable[[], ViewAbout],
         status: Callable[[], Status],
@@ -61,6 +62,7 @@ class Answers:
         history: KeptHistory,
     ) -> None:
         self._epoch = epoch
+        self._hash_every = hash_every
         self._about = about
         self._view = view
         self._status = status
@@ -139,7 +141,7 @@ class Answers:
         ticks = self._history.ticks(request.first, request.end)
         if not ticks:
             raise ProtocolError(f"ticks {request.first} to {request.end - 1}: not kept, or not yet run")
-        stretch = History.of(self._epoch, ticks, hash_every=self._about().hash_every)
+        stretch = History.of(self._epoch, ticks, hash_every=self._hash_every)
         yield from split(compress(encode(stretch)), of="history", epoch=self._epoch, tick=ticks[0].tick)
 
     def _tell_snapshot(self, request: SnapshotRequest) -> Iterator[Message]:

@@ -119,6 +119,7 @@ class Server(Closing):
             self._session,
             keys,
             epoch=self.epoch,
+            hash_every=self._hash_every,
             about=self.about,
             view=self.view_about,
             status=self.status,

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 
 from kuglice.errors import ProtocolError
+from kuglice_server.beside import Beside
 
 __all__ = ["Snapshots"]
 
@@ -21,7 +21,7 @@ class Snapshots:
     """`undeclare` ends its thread."""
 
     def __init__(self) -> None:
-        self._thread = ThreadPoolExecutor(1, thread_name_prefix="snapshots")
+        self._thread = Beside("snapshots")
         self._room = threading.Semaphore(MOST_WAITING)
 
     def answer(self, answer: Callable[[], None]) -> None:
@@ -37,7 +37,7 @@ class Snapshots:
 
     def undeclare(self) -> None:
         """Leave those who still wait without an answer, and end."""
-        self._thread.shutdown(cancel_futures=True)
+        self._thread.undeclare()
 
     def _run(self, answer: Callable[[], None]) -> None:
         try:

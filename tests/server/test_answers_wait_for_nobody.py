@@ -117,6 +117,7 @@ def desk(monkeypatch):
         session,
         KEYS,
         epoch=EPOCH,
+        hash_every=1,
         about=_About,
         view=_About,
         status=status,
