@@ -168,16 +168,12 @@ def close_session(session: zenoh.Session, declared: Iterable[Declared], *, timeo
     """
 
     def close() -> None:
-        for entity in declared:
+        for end in (*(entity.undeclare for entity in declared), session.close):
             try:
-                entity.undeclare()
+                end()  # type: ignore[no-untyped-call]
             except zenoh.ZError as error:
                 # Where the link is lost there is nobody to withdraw it from; the session is to be closed all the same.
                 log.debug("%s", error)
-        try:
-            session.close()  # type: ignore[no-untyped-call]
-        except zenoh.ZError as error:
-            log.debug("%s", error)
 
     # Closing is known to hang on a bad link, and then nothing but a thread of its own lets us go on.
     thread = aside(close, "close zenoh session")
