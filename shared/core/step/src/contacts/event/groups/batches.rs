@@ -83,6 +83,10 @@ impl Batches {
             }
             groups.known = here.peek().map_or(f64::INFINITY, |next| next.low);
             groups.run(ground, &mut beyond);
+            if groups.stuck {
+                // All of it is taken back; the rest would be looked for in vain.
+                return;
+            }
         }
     }
 }
