@@ -48,7 +48,7 @@ memcheck: $(SETUP)
 
 ## make chart   all figures of the lab in out/chart, and the table that the planner reads
 chart: $(SETUP)
-	@$(BIN)/kuglice chart --plan-table shared/kuglice/plan/measured.csv
+	@$(BIN)/kuglice chart --plan-table shared/kuglice/planner/measured.csv
 
 ## make rapier  build Rapier as one more peer of bench and chart
 rapier: $(SETUP)

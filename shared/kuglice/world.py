@@ -13,7 +13,7 @@ from kuglice.ball_states import BallStates, ids
 from kuglice.errors import LimitError, MissingExtraError, SnapshotError
 from kuglice.inputs import Input, pack
 from kuglice.model import Model
-from kuglice.plan import plan
+from kuglice.planner import plan
 from kuglice.scene import Scene
 
 __all__ = ["World"]

@@ -8,14 +8,15 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from kuglice.aside import under_way
+from kuglice.cli.interrupt import INTERRUPTED, ended_by_interrupt
 from kuglice.errors import KugliceError
 
 __all__ = ["main"]
 
 REFUSED = 2
 """Exit code for what a user can put right: the same as for a wrong option."""
-INTERRUPTED = 130
-"""Exit code after Ctrl-C: what shells say for SIGINT."""
+FAILED = 1
+"""Exit code of Python for a SystemExit with a text."""
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -35,7 +36,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 def _run(arguments: Sequence[str] | None) -> None:
     try:
-        from kuglice.cli.app import build  # noqa: PLC0415 - other rooms import this package for its parts
+        with ended_by_interrupt():
+            from kuglice.cli.app import build  # noqa: PLC0415 - other rooms import this package for its parts
 
         build()(args=arguments, prog_name="kuglice")
     except KugliceError as error:
@@ -52,7 +54,14 @@ def _run(arguments: Sequence[str] | None) -> None:
 
 
 def _leave(end: SystemExit) -> NoReturn:
-    """What is not closed by now would be waited for: Zenoh's threads that answer are no daemons."""
+    """What is not closed by now would be waited for: Zenoh's threads that answer are no daemons.
+
+    As Python would end on it: a number is the status, None is 0, and anything else is told on stderr.
+    """
+    status = end.code
+    if status is not None and not isinstance(status, int):
+        print(status, file=sys.stderr)
+        status = FAILED
     sys.stdout.flush()
     sys.stderr.flush()
-    os._exit(end.code if isinstance(end.code, int) else int(end.code is not None))
+    os._exit(status or 0)

@@ -10,8 +10,8 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from kuglice.plan import expect
-from kuglice.plan import plan as choose
+from kuglice.planner import expect
+from kuglice.planner import plan as choose
 from kuglice.scenes import find
 
 __all__ = ["register"]

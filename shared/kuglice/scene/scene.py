@@ -62,7 +62,7 @@ class Scene(BaseModel):
     model: ModelPins = ModelPins()
     accuracy: Accuracy = "visual"
     """"visual", "faithful" or "exact", or the largest error of a position that is accepted, in radii, when
-    the mean ball has collided once or a second has passed (see kuglice.plan.demand)."""
+    the mean ball has collided once or a second has passed (see kuglice.planner.demand)."""
     budget_ms: Positive | None = None
     """Milliseconds that one tick may take."""
 

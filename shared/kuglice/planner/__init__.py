@@ -1,7 +1,7 @@
 """The planner: the cheapest model that meets what a scene demands, with its reasons in words."""
 
-from kuglice.plan.demand import LEVELS
-from kuglice.plan.expectation import Expectation, expect
-from kuglice.plan.planner import plan
+from kuglice.planner.choice import plan
+from kuglice.planner.demand import LEVELS
+from kuglice.planner.expectation import Expectation, expect
 
 __all__ = ["LEVELS", "Expectation", "expect", "plan"]

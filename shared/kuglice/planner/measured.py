@@ -28,7 +28,7 @@ Curve = list[tuple[float, float]]
 
 @cache
 def _content() -> tuple[str, list[Row]]:
-    text = files("kuglice.plan").joinpath(FILE).read_text(encoding="utf-8").splitlines()
+    text = files("kuglice.planner").joinpath(FILE).read_text(encoding="utf-8").splitlines()
     remarks = [line.removeprefix("#").strip() for line in text if line.startswith("#")]
     return remarks[0], list(csv.DictReader(line for line in text if not line.startswith("#")))
 

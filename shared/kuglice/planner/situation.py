@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from kuglice.plan.demand import LONGEST
+from kuglice.planner.demand import LONGEST
 from kuglice.scene import Scene
 from kuglice.scene.forces import Force
 from kuglice.travel import longest_travel

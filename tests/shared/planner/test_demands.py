@@ -14,11 +14,11 @@ from kuglice.lab.energy import conserved, energy
 from kuglice.lab.reference import reference, seconds_until
 from kuglice.lab.work_precision.errors import position_error
 from kuglice.layout import RandomGroup
-from kuglice.plan import expect
-from kuglice.plan.candidates import MOST_DRIFT, candidates
-from kuglice.plan.demand import LONGEST, demanded
-from kuglice.plan.planner import NOISE
-from kuglice.plan.situation import situation
+from kuglice.planner import expect
+from kuglice.planner.candidates import MOST_DRIFT, candidates
+from kuglice.planner.choice import NOISE
+from kuglice.planner.demand import LONGEST, demanded
+from kuglice.planner.situation import situation
 
 
 def swarm(seed: int) -> kg.Scene:

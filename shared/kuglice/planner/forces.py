@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from kuglice.plan.situation import Situation
+from kuglice.planner.situation import Situation
 from kuglice.scene import Scene
 
 __all__ = ["Action", "actions"]

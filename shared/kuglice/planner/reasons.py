@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from kuglice.plan.candidates import DEEPEST, Candidate
-from kuglice.plan.demand import demanded
-from kuglice.plan.situation import Situation
+from kuglice.planner.candidates import DEEPEST, Candidate
+from kuglice.planner.demand import demanded
+from kuglice.planner.situation import Situation
 from kuglice.scene import Scene
 
 __all__ = ["reasons"]

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 from kuglice.errors import PlanError
 from kuglice.model import Model
-from kuglice.plan.candidates import MOST_SUBSTEPS, Candidate, candidates
-from kuglice.plan.demand import demanded
-from kuglice.plan.reasons import reasons
-from kuglice.plan.situation import Situation, situation
+from kuglice.planner.candidates import MOST_SUBSTEPS, Candidate, candidates
+from kuglice.planner.demand import demanded
+from kuglice.planner.reasons import reasons
+from kuglice.planner.situation import Situation, situation
 from kuglice.scene import Scene
 
 __all__ = ["NOISE", "plan"]

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from kuglice.model import Model
-from kuglice.plan import measured
-from kuglice.plan.forces import Action, actions
-from kuglice.plan.situation import Situation, situation
+from kuglice.planner import measured
+from kuglice.planner.forces import Action, actions
+from kuglice.planner.situation import Situation, situation
 from kuglice.scene import Scene
 
 __all__ = ["Expectation", "cost_ms", "expect", "expect_in"]
@@ -24,7 +24,7 @@ MOST_MOVED = 1.0
 
 @dataclass(frozen=True)
 class Expectation:
-    """`error`: position after one collision per ball or a second, in radii (see kuglice.plan.demand)."""
+    """`error`: position after one collision per ball or a second, in radii (see kuglice.planner.demand)."""
 
     error: float
     cost_ms: float

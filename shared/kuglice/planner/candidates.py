@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from kuglice import _core
 from kuglice.errors import ModelError
 from kuglice.model import Model
-from kuglice.plan.demand import VISUAL, demanded
-from kuglice.plan.expectation import Expectation, cost_ms, expect_in
-from kuglice.plan.forces import actions
-from kuglice.plan.situation import Situation
+from kuglice.planner.demand import VISUAL, demanded
+from kuglice.planner.expectation import Expectation, cost_ms, expect_in
+from kuglice.planner.forces import actions
+from kuglice.planner.situation import Situation
 from kuglice.scene import Scene
 
 __all__ = ["DEEPEST", "MOST_SUBSTEPS", "Candidate", "candidates"]

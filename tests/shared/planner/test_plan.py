@@ -6,7 +6,7 @@ import pytest
 
 import kuglice as kg
 from kuglice.errors import ModelError, PlanError, SceneError
-from kuglice.plan import expect
+from kuglice.planner import expect
 
 
 def gas(**changes) -> kg.Scene:
@@ -14,7 +14,7 @@ def gas(**changes) -> kg.Scene:
 
 
 def pinned(scene: kg.Scene, **pins) -> kg.Scene:
-    return scene.model_copy(update={"model": kg.scene.ModelPins(**pins)})
+    return scene.model_copy(update={"model": kg.ModelPins(**pins)})
 
 
 class TestAccuracy:
