@@ -6,6 +6,7 @@ import logging
 import threading
 import time
 from collections.abc import Callable
+from contextlib import ExitStack
 from typing import Any
 
 import zenoh
@@ -34,7 +35,7 @@ from kuglice_server.publish import Publisher
 from kuglice_server.record import Record
 from kuglice_server.regions import RegionPublisher, choose_terms
 from kuglice_server.schedule import Schedule
-from kuglice_server.settings import ServerSettings
+from kuglice_server.settings import ServerSettings, check_rate
 from kuglice_server.tick_loop import TickLoop
 
 __all__ = ["Server"]
@@ -55,7 +56,11 @@ class Server(Closing):
         self.settings = settings
         self.world = World(scene, threads=settings.threads)
         self.epoch = new_epoch()
-        self.rate = settings.rate if settings.rate is not None else scene.tick_rate
+        self.rate = (
+            settings.rate
+            if settings.rate is not None
+            else check_rate("the scene's tick_rate", scene.tick_rate)
+        )
         self.counters = Counters()
         self._snapshot_every = settings.snapshot_every or max(1, round(self.rate))
         self._hash_every = settings.hash_every or (
@@ -75,58 +80,73 @@ class Server(Closing):
         )
         self._history = History(span=max(600, round(HISTORY_SECONDS * self.rate)))
         self._schedule = Schedule(self.rate)
-        self._record = Record(settings.record, self.world) if settings.record is not None else None
-        keys = Keys(settings.world)
-        self._session = open_session(server_configuration(listen=settings.listen, connect=settings.connect))
-        publisher = Publisher(self._session, keys, epoch=self.epoch, rate=self.rate, counters=self.counters)
         region_every = max(1, round(self.rate / settings.region_rate))
         self._terms = choose_terms(self.world, rate=self.rate / region_every)
         self._reference_speed = reference_speed(scene)
         self._teller = Beside("regions")
-        self._regions = RegionPublisher(
-            self._session,
-            keys,
-            self._terms,
-            epoch=self.epoch,
-            world=self.world,
-            every=region_every,
-            counters=self.counters,
-            teller=self._teller,
-        )
-        tokens: zenoh.Subscriber[Any] = self._session.liveliness().declare_subscriber(
-            keys.clients, zenoh.handlers.RingChannel(WAITING_MESSAGES), history=True
-        )
-        inputs: zenoh.Subscriber[Any] = self._session.declare_subscriber(
-            keys.inputs, zenoh.handlers.RingChannel(WAITING_MESSAGES)
-        )
-        self._loop = TickLoop(
-            self.world,
-            players=self._players,
-            intake=intake,
-            history=self._history,
-            publisher=publisher,
-            tokens=tokens,
-            inputs=inputs,
-            snapshot_every=self._snapshot_every,
-            hash_every=self._hash_every,
-            counters=self.counters,
-            lock=self._lock,
-            record=self._record,
-        )
         self._now = self.world.tick
         self._balls = self.world.count
-        self._answers = Answers(
-            self._session,
-            keys,
-            epoch=self.epoch,
-            hash_every=self._hash_every,
-            about=self.about,
-            view=self.view_about,
-            status=self.status,
-            settled=self._settled,
-            history=self._history,
-        )
-        self._declared: tuple[Declared, ...] = (inputs, tokens, *self._answers.declared, *publisher.declared)
+        keys = Keys(settings.world)
+        with ExitStack() as undo:
+            self._session = open_session(
+                server_configuration(listen=settings.listen, connect=settings.connect)
+            )
+            undo.callback(close_session, self._session, ())
+            # Not before the address is ours: what is there already may be the recording of the server that has it.
+            self._record = Record(settings.record, self.world) if settings.record is not None else None
+            if self._record is not None:
+                undo.callback(self._record.close)
+            publisher = Publisher(
+                self._session, keys, epoch=self.epoch, rate=self.rate, counters=self.counters
+            )
+            self._regions = RegionPublisher(
+                self._session,
+                keys,
+                self._terms,
+                epoch=self.epoch,
+                world=self.world,
+                every=region_every,
+                counters=self.counters,
+                teller=self._teller,
+            )
+            tokens: zenoh.Subscriber[Any] = self._session.liveliness().declare_subscriber(
+                keys.clients, zenoh.handlers.RingChannel(WAITING_MESSAGES), history=True
+            )
+            inputs: zenoh.Subscriber[Any] = self._session.declare_subscriber(
+                keys.inputs, zenoh.handlers.RingChannel(WAITING_MESSAGES)
+            )
+            self._loop = TickLoop(
+                self.world,
+                players=self._players,
+                intake=intake,
+                history=self._history,
+                publisher=publisher,
+                tokens=tokens,
+                inputs=inputs,
+                snapshot_every=self._snapshot_every,
+                hash_every=self._hash_every,
+                counters=self.counters,
+                lock=self._lock,
+                record=self._record,
+            )
+            self._answers = Answers(
+                self._session,
+                keys,
+                epoch=self.epoch,
+                hash_every=self._hash_every,
+                about=self.about,
+                view=self.view_about,
+                status=self.status,
+                settled=self._settled,
+                history=self._history,
+            )
+            self._declared: tuple[Declared, ...] = (
+                inputs,
+                tokens,
+                *self._answers.declared,
+                *publisher.declared,
+            )
+            undo.pop_all()
 
     def run(
         self,

@@ -9,9 +9,12 @@ from pathlib import Path
 from kuglice.errors import ProtocolError
 from kuglice.protocol import DEFAULT_ENDPOINT, check_endpoints, refuse_exposed
 
-__all__ = ["ServerSettings"]
+__all__ = ["ServerSettings", "check_rate"]
 
 MAX_GRACE = 3600.0
+LOWEST_RATE = 0.001
+MAX_RATE = 10_000
+MAX_REGION_RATE = 1000
 
 
 @dataclass(frozen=True)
@@ -48,11 +51,21 @@ class ServerSettings:
             raise ProtocolError(f"snapshot-every {self.snapshot_every}: must be at least 1 tick")
         if self.hash_every is not None and self.hash_every < 1:
             raise ProtocolError(f"hash-every {self.hash_every}: must be at least 1 tick")
-        if not 0 < self.region_rate <= 1000:
+        if not LOWEST_RATE <= self.region_rate <= MAX_REGION_RATE:
             raise ProtocolError(
-                f"region-rate {self.region_rate}: must be above 0 and at most 1000 times per second"
+                f"region-rate {self.region_rate}: must be at least {LOWEST_RATE} and at most "
+                f"{MAX_REGION_RATE} times per second"
             )
         if not 0 <= self.grace <= MAX_GRACE:
             raise ProtocolError(f"grace {self.grace}: must be at least 0 and at most {MAX_GRACE:g} seconds")
-        if self.rate is not None and not 0 < self.rate <= 10_000:
-            raise ProtocolError(f"rate {self.rate}: must be above 0 and at most 10000 ticks per second")
+        if self.rate is not None:
+            check_rate("rate", self.rate)
+
+
+def check_rate(what: str, rate: float) -> float:
+    """`rate` as it is; raises ProtocolError where nobody could be served at so many ticks per second of wall clock."""
+    if not LOWEST_RATE <= rate <= MAX_RATE:
+        raise ProtocolError(
+            f"{what} {rate:g}: must be at least {LOWEST_RATE} and at most {MAX_RATE} ticks per second"
+        )
+    return rate
