@@ -118,6 +118,24 @@ def test_what_a_client_cannot_draw_is_refused_before_it_connects():
         assert shown.stderr.count("\n") == 1
 
 
+@pytest.mark.parametrize(
+    "command",
+    [
+        "server arena --insecure --listen tcp/nobody.invalid:7447",
+        "server arena --connect tcp/nobody.invalid:7447",
+        "server arena --listen tcp/127.0.0.1:0 --connect tcp/nobody.invalid:7447",
+        "router --connect tcp/nobody.invalid:7447",
+        "proxy 127.0.0.1:1 tcp/nobody.invalid:7447",
+        "proxy tcp/nobody.invalid:7447",
+    ],
+)
+def test_a_host_without_an_address_is_named_before_anything_is_opened(command):
+    # A name that may never be given to anybody (RFC 6761); whoever waits for it does so for longer than this test.
+    shown = kuglice(*command.split())
+    told = "kuglice: endpoint 'tcp/nobody.invalid:7447': no address is known of a host nobody.invalid\n"
+    assert (shown.returncode, shown.stdout, shown.stderr) == (2, "", told)
+
+
 @pytest.mark.parametrize("command", ["demo --out {}", "client --render {}/x.mp4", "replay {} --render x.mp4"])
 def test_a_missing_extra_is_named_before_anything_else_is_done(command, recording, tmp_path):
     target = recording if command.startswith("replay") else tmp_path / "out"

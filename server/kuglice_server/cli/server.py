@@ -17,7 +17,7 @@ from kuglice.cli.logs import STDERR, log_to_stderr
 from kuglice.cli.stop import stop_on_signals
 from kuglice.cli.threads import Threads
 from kuglice.cli.writable import writable_file
-from kuglice.protocol import DEFAULT_ENDPOINT
+from kuglice.protocol import DEFAULT_ENDPOINT, check_hosts
 from kuglice_server.server import Server
 from kuglice_server.settings import ServerSettings
 
@@ -103,6 +103,7 @@ def server(
         threads=threads,
         insecure=insecure,
     )
+    check_hosts((*settings.listen, *settings.connect))
     with Server(scenes.find(scene), settings) as running:
         where = ", ".join((*settings.listen, *settings.connect))
         STDERR.print(

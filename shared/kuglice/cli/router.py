@@ -13,6 +13,7 @@ from kuglice.cli.stop import stop_on_signals
 from kuglice.errors import NetworkError, ProtocolError
 from kuglice.protocol import (
     check_endpoints,
+    check_hosts,
     client_configuration,
     close_session,
     open_session,
@@ -55,6 +56,7 @@ def router(
     check_endpoints((*ours, *theirs))
     if not insecure:
         refuse_exposed(ours)
+    check_hosts((*ours, *theirs))
     session = open_session(server_configuration(listen=ours, connect=theirs))
     try:
         _refuse_itself(session, theirs)

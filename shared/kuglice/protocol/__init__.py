@@ -9,6 +9,7 @@ from kuglice.protocol.compression import compress, decompress
 from kuglice.protocol.endpoints import (
     DEFAULT_ENDPOINT,
     check_endpoints,
+    check_hosts,
     host_and_port,
     is_loopback,
     wants_datagrams,
@@ -98,6 +99,7 @@ __all__ = [
     "ViewAbout",
     "Whole",
     "check_endpoints",
+    "check_hosts",
     "check_name",
     "client_configuration",
     "close_session",

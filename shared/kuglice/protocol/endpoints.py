@@ -12,6 +12,7 @@ __all__ = [
     "DEFAULT_ENDPOINT",
     "as_written",
     "check_endpoints",
+    "check_hosts",
     "host_and_port",
     "is_loopback",
     "locators",
@@ -55,6 +56,17 @@ def check_endpoints(endpoints: Iterable[str]) -> None:
     """Raises ProtocolError for the first that is none: nobody need wait until nothing answers there."""
     for endpoint in endpoints:
         is_loopback(endpoint)
+
+
+def check_hosts(endpoints: Iterable[str]) -> None:
+    """Raises ProtocolError for the first whose host is a name without an address; asks, and may wait for the answer.
+
+    Whoever listens would try to connect to it for ever, and without a word.
+    """
+    for endpoint in endpoints:
+        host = unresolved(endpoint)
+        if host is not None:
+            raise ProtocolError(f"endpoint {endpoint!r}: no address is known of a host {host}")
 
 
 def host_and_port(endpoint: str) -> tuple[str, int]:

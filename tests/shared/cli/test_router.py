@@ -31,3 +31,12 @@ def test_what_is_no_endpoint_is_refused_on_either_side():
         router(listen=["7448"])
     with pytest.raises(ProtocolError, match="endpoint '7447'"):
         router(connect=["7447"])
+
+
+@pytest.mark.parametrize("option", ["listen", "connect"])
+def test_a_host_without_an_address_is_named_at_once(option):
+    # A name that may never be given to anybody (RFC 6761).
+    told = re.escape("endpoint 'tcp/nobody.invalid:7447': no address is known of a host nobody.invalid")
+    endpoints = {"listen": [free_endpoint()], option: ["tcp/nobody.invalid:7447"]}
+    with pytest.raises(ProtocolError, match=told):
+        router(**endpoints, insecure=True)

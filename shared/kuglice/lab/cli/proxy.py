@@ -13,7 +13,7 @@ from kuglice.errors import NetworkError
 from kuglice.lab.network.addresses import address
 from kuglice.lab.network.conditions import Conditions
 from kuglice.lab.network.proxy import Proxy
-from kuglice.protocol import DEFAULT_ENDPOINT
+from kuglice.protocol import DEFAULT_ENDPOINT, check_hosts
 
 __all__ = ["register"]
 
@@ -62,6 +62,7 @@ def proxy(
         raise NetworkError(
             f"proxy: listens on {listen} and relays to it, which is itself; TARGET must be the server"
         )
+    check_hosts(one if "/" in one else f"tcp+udp/{one}" for one in (listen, target))
     stop = stop_on_signals()
     relay = Proxy(ours, theirs, conditions)
 
