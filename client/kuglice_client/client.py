@@ -213,8 +213,7 @@ class Client(Closing):
             return
         log.warning("world %s was restarted: joined again", self._keys.world)
         self._other_epochs.add(ours)
-        self.totals.keep(figures(self.replica, self.screen))
-        self.totals.rejoins += 1
+        self.totals.rejoin(figures(self.replica, self.screen))
         self._enter(joined, deadline)
 
     def _seen(self) -> tuple[Ids, Floats]:

@@ -1,4 +1,4 @@
-"""The figures of a client's session, over all the runs of the server that it lived through."""
+"""The figures of a session, of a client or a view, over all the runs of the server that it lived through."""
 
 from __future__ import annotations
 
@@ -14,16 +14,17 @@ LARGEST = frozenset({"deepest_rollback", "worst_correction_radii"})
 
 @dataclass
 class Totals:
-    """What the client counts itself, and the figures of server runs that are over."""
+    """What is counted whatever the run, and the figures of server runs that are over."""
 
     messages_thrown_away: int = 0
     malformed_snapshots: int = 0
     rejoins: int = 0
     past: dict[str, Figure] = field(default_factory=dict)
 
-    def keep(self, figures: Mapping[str, Figure]) -> None:
-        """Add the figures of a run that is over."""
+    def rejoin(self, figures: Mapping[str, Figure]) -> None:
+        """Another run of the server begins: add the figures of the one that is over."""
         self.past = self.with_past(figures)
+        self.rejoins += 1
 
     def with_past(self, figures: Mapping[str, Figure]) -> dict[str, Figure]:
         """The figures of the present run and of those before it together."""

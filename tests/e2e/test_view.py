@@ -108,8 +108,8 @@ def _silent(other: RawClient) -> bool:
 def test_a_server_that_starts_anew_is_looked_at_again(start, scene, endpoint, look, server):
     view = look()
     whole_tick(view)
-    epoch, updates = view.replica.about.epoch, view.updates
-    assert updates > 0
+    epoch, before = view.replica.about.epoch, view.summary()
+    assert before["updates"] > 0
     server.kill()
     start("server", scene, "--listen", endpoint)
 
@@ -118,9 +118,12 @@ def test_a_server_that_starts_anew_is_looked_at_again(start, scene, endpoint, lo
         return view.replica.about.epoch != epoch
 
     until(anew, what="the new server is found")
-    assert view.rejoins == 1
     whole_tick(view)
-    assert view.updates >= updates + len(view.replica.interest.paces), "of both runs"
+    summary = view.summary()
+    assert summary["rejoins"] == 1
+    assert summary["updates"] >= before["updates"] + len(view.replica.interest.paces), "of both runs"
+    for figure in ("balls_told", "rewinds", "ticks_rerun", "updates_too_old"):
+        assert summary[figure] >= before[figure], f"{figure} of both runs"
     assert view.in_sight.sum() > 10
 
 
@@ -147,7 +150,7 @@ def test_a_hostile_region_is_refused_and_the_view_goes_on(endpoint, look, server
 
         until(all_refused, what="all are refused")
     whole_tick(view, tick)
-    assert view.rejoins == 0
+    assert view.totals.rejoins == 0
     assert view.replica.known.jumps == 0
 
 

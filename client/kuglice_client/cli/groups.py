@@ -57,6 +57,7 @@ VIEW = {
     "network": Group(
         (
             "updates",
+            "balls_told",
             "bytes_per_update",
             "bytes_per_ball_told",
             "bytes_per_second_received",

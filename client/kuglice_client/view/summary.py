@@ -7,16 +7,35 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from kuglice_client.totals import Figure
+from kuglice_client.view.partial_replica import PartialReplica
+
 if TYPE_CHECKING:
     from kuglice_client.view.view import View
 
-__all__ = ["summarise"]
+__all__ = ["figures", "summarise"]
+
+
+def figures(replica: PartialReplica) -> dict[str, Figure]:
+    """Of the present run of the server only; Totals adds them up over all runs."""
+    known = replica.known
+    return {
+        "updates": replica.updates,
+        "balls_told": replica.balls_told,
+        "updates_too_old": known.too_old,
+        "rewinds": known.rewinds,
+        "ticks_rerun": known.ticks_rerun,
+        "jumps": known.jumps,
+        "unusable_ticks": known.unusable,
+    }
 
 
 def summarise(view: View, *, seconds: float) -> dict[str, Any]:
     """Values for JSON. Errors are distances between told and predicted places of balls in sight, in radii."""
     replica, accuracy = view.replica, view.accuracy
     about, known, interest = replica.about, replica.known, replica.interest
+    summed = view.totals.with_past(figures(replica))
+    updates, balls_told = summed["updates"], summed["balls_told"]
     region_bytes = view.link.traffic.received["regions"]
     rates = view.link.traffic.per_second(seconds)
     paces = Counter(interest.paces.values())
@@ -38,16 +57,11 @@ def summarise(view: View, *, seconds: float) -> dict[str, Any]:
         "regions_followed": len(interest.paces),
         "regions_by_pace": {f"1/{1 << pace}": paces[pace] for pace in sorted(paces)},
         "regions_left_out": interest.left_out,
-        "updates": view.updates,
-        "bytes_per_update": region_bytes / view.updates if view.updates else None,
-        "bytes_per_ball_told": region_bytes / view.balls_told if view.balls_told else None,
-        "updates_too_old": known.too_old,
-        "rewinds": known.rewinds,
-        "ticks_rerun": known.ticks_rerun,
-        "jumps": known.jumps,
-        "unusable_ticks": known.unusable,
+        "bytes_per_update": region_bytes / updates if updates else None,
+        "bytes_per_ball_told": region_bytes / balls_told if balls_told else None,
+        **summed,
         "malformed_messages": view.malformed,
-        "rejoins": view.rejoins,
+        "rejoins": view.totals.rejoins,
         "bytes_per_second_received": rates["received"],
         "bytes_per_second_budget": view.settings.budget,
         "bytes_joining": view.link.traffic.received["joining"],

@@ -18,12 +18,13 @@ from kuglice_client.correction import Correction
 from kuglice_client.join import find_world
 from kuglice_client.link import DatagramWatch, Link, Renewal, Waiting
 from kuglice_client.run_loop import Frames, run_loop
+from kuglice_client.totals import Totals
 from kuglice_client.view.accuracy import Accuracy
 from kuglice_client.view.inquiry import Inquiry
 from kuglice_client.view.partial_replica import PartialReplica
 from kuglice_client.view.settings import ViewSettings, check_rectangle
 from kuglice_client.view.subscriptions import Subscriptions
-from kuglice_client.view.summary import summarise
+from kuglice_client.view.summary import figures, summarise
 from kuglice_client.view.told import Floats, Ids
 
 if TYPE_CHECKING:
@@ -41,7 +42,7 @@ ARRIVE_IDLE_SECONDS = 0.001
 class View(Closing):
     """Connects and subscribes when made; `run` looks until told to stop. A context manager. Raises JoinError.
 
-    Its link, rectangle and figures last; its `replica` is of one run of the server.
+    Its link, rectangle and totals last; its `replica` is of one run of the server.
     """
 
     def __init__(self, settings: ViewSettings, stop: threading.Event | None = None) -> None:
@@ -54,8 +55,7 @@ class View(Closing):
         self.correction = Correction()
         self.malformed = 0
         self._silent = False
-        self._updates_before = self._balls_told_before = 0
-        self.rejoins = 0
+        self.totals = Totals()
         self.link = Link(settings.connect, deadline=deadline, stop=self.stop)
         self.renewal = Renewal(self.link, DatagramWatch(self.link))
         try:
@@ -104,16 +104,6 @@ class View(Closing):
                 each_frame(self, alpha)
 
         run_loop(self.turn, frame, Frames(fps), stop=self.stop, seconds=seconds)
-
-    @property
-    def updates(self) -> int:
-        """Regions that were told of, by all runs of the server."""
-        return self._updates_before + self.replica.updates
-
-    @property
-    def balls_told(self) -> int:
-        """Balls in these, as often as each was told."""
-        return self._balls_told_before + self.replica.balls_told
 
     @property
     def in_sight(self) -> NDArray[np.bool_]:
@@ -187,8 +177,7 @@ class View(Closing):
             self.subscriptions.go_over(self.link.session)
         if about is not None and about.epoch != self.replica.about.epoch:
             log.warning("world %s was restarted: looked at again", self._keys.world)
-            self.rejoins += 1
-            self._updates_before, self._balls_told_before = self.updates, self.balls_told
+            self.totals.rejoin(figures(self.replica))
             self._enter(about)
 
     def _compare(self, ids: Ids, position: Floats, off: Floats) -> None:
