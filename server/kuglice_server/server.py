@@ -11,9 +11,8 @@ from typing import Any
 
 import zenoh
 
-from kuglice import Balls, Scene, World, __version__, _core
+from kuglice import Scene, World
 from kuglice.closing import Closing
-from kuglice.picture import reference_speed
 from kuglice.protocol import (
     About,
     Declared,
@@ -26,7 +25,9 @@ from kuglice.protocol import (
 )
 from kuglice_server.answer import Answers
 from kuglice_server.beside import Beside
+from kuglice_server.cadence import Cadence
 from kuglice_server.counters import Counters
+from kuglice_server.description import Description
 from kuglice_server.epoch import new_epoch
 from kuglice_server.history import History
 from kuglice_server.intake import Intake
@@ -35,18 +36,16 @@ from kuglice_server.publish import Publisher
 from kuglice_server.record import Record
 from kuglice_server.regions import RegionPublisher, choose_terms
 from kuglice_server.schedule import Schedule
-from kuglice_server.settings import ServerSettings, check_rate
+from kuglice_server.settings import ServerSettings
 from kuglice_server.tick_loop import TickLoop
 
 __all__ = ["Server"]
 
 log = logging.getLogger(__name__)
 
-HISTORY_SECONDS = 60
-EARLIEST_SECONDS = 2
+Samples = zenoh.Subscriber[Any]
+
 WAITING_MESSAGES = 4096
-HASHED_BALLS = 100_000
-"""Up to so many balls every state's hash is told."""
 
 
 class Server(Closing):
@@ -56,37 +55,20 @@ class Server(Closing):
         self.settings = settings
         self.world = World(scene, threads=settings.threads)
         self.epoch = new_epoch()
-        self.rate = (
-            settings.rate
-            if settings.rate is not None
-            else check_rate("the scene's tick_rate", scene.tick_rate)
-        )
+        self.cadence = Cadence.of(settings, self.world)
         self.counters = Counters()
-        self._snapshot_every = settings.snapshot_every or max(1, round(self.rate))
-        self._hash_every = settings.hash_every or (
-            1 if self.world.count <= HASHED_BALLS else max(1, round(self.rate))
-        )
-        self._scene = scene
-        # Who joins gets the balls of today, by a snapshot or region by region, and has no use for those of the start.
-        self._ruled_scene_message = {**scene.to_message(), "balls": Balls.none().to_message()}
+        self._keys = Keys(settings.world)
         self._lock = threading.Lock()
-        self._players = Players(scene, grace=round(settings.grace * self.rate))
-        intake = Intake(
-            scene,
-            self._players,
-            epoch=self.epoch,
-            horizon=max(1, round(EARLIEST_SECONDS * self.rate)),
-            counters=self.counters,
+        self._players = Players(scene, grace=self.cadence.grace)
+        self._history = History(span=self.cadence.history)
+        self._schedule = Schedule(self.cadence.rate)
+        self._terms = choose_terms(self.world, rate=self.cadence.region_rate)
+        self._description = Description(
+            settings.world, self.world, epoch=self.epoch, cadence=self.cadence, terms=self._terms
         )
-        self._history = History(span=max(600, round(HISTORY_SECONDS * self.rate)))
-        self._schedule = Schedule(self.rate)
-        region_every = max(1, round(self.rate / settings.region_rate))
-        self._terms = choose_terms(self.world, rate=self.rate / region_every)
-        self._reference_speed = reference_speed(scene)
         self._teller = Beside("regions")
         self._now = self.world.tick
         self._balls = self.world.count
-        keys = Keys(settings.world)
         with ExitStack() as undo:
             self._session = open_session(
                 server_configuration(listen=settings.listen, connect=settings.connect)
@@ -96,57 +78,74 @@ class Server(Closing):
             self._record = Record(settings.record, self.world) if settings.record is not None else None
             if self._record is not None:
                 undo.callback(self._record.close)
-            publisher = Publisher(
-                self._session, keys, epoch=self.epoch, rate=self.rate, counters=self.counters
-            )
-            self._regions = RegionPublisher(
-                self._session,
-                keys,
-                self._terms,
-                epoch=self.epoch,
-                world=self.world,
-                every=region_every,
-                counters=self.counters,
-                teller=self._teller,
-            )
-            tokens: zenoh.Subscriber[Any] = self._session.liveliness().declare_subscriber(
-                keys.clients, zenoh.handlers.RingChannel(WAITING_MESSAGES), history=True
-            )
-            inputs: zenoh.Subscriber[Any] = self._session.declare_subscriber(
-                keys.inputs, zenoh.handlers.RingChannel(WAITING_MESSAGES)
-            )
-            self._loop = TickLoop(
-                self.world,
-                players=self._players,
-                intake=intake,
-                history=self._history,
-                publisher=publisher,
-                tokens=tokens,
-                inputs=inputs,
-                snapshot_every=self._snapshot_every,
-                hash_every=self._hash_every,
-                counters=self.counters,
-                lock=self._lock,
-                record=self._record,
-            )
-            self._answers = Answers(
-                self._session,
-                keys,
-                epoch=self.epoch,
-                hash_every=self._hash_every,
-                about=self.about,
-                view=self.view_about,
-                status=self.status,
-                settled=self._settled,
-                history=self._history,
-            )
-            self._declared: tuple[Declared, ...] = (
-                inputs,
-                tokens,
-                *self._answers.declared,
-                *publisher.declared,
-            )
+            self._publisher = self._make_publisher()
+            self._regions = self._make_regions()
+            self._tokens, self._inputs = self._subscribe()
+            self._loop = self._make_loop()
+            self._answers = self._make_answers()
             undo.pop_all()
+
+    def _make_publisher(self) -> Publisher:
+        return Publisher(
+            self._session, self._keys, epoch=self.epoch, rate=self.cadence.rate, counters=self.counters
+        )
+
+    def _make_regions(self) -> RegionPublisher:
+        return RegionPublisher(
+            self._session,
+            self._keys,
+            self._terms,
+            epoch=self.epoch,
+            world=self.world,
+            every=self.cadence.region_every,
+            counters=self.counters,
+            teller=self._teller,
+        )
+
+    def _subscribe(self) -> tuple[Samples, Samples]:
+        """To who is there, and to what they want."""
+        tokens = self._session.liveliness().declare_subscriber(
+            self._keys.clients, zenoh.handlers.RingChannel(WAITING_MESSAGES), history=True
+        )
+        inputs = self._session.declare_subscriber(
+            self._keys.inputs, zenoh.handlers.RingChannel(WAITING_MESSAGES)
+        )
+        return tokens, inputs
+
+    def _make_loop(self) -> TickLoop:
+        return TickLoop(
+            self.world,
+            players=self._players,
+            intake=Intake(
+                self.world.scene,
+                self._players,
+                epoch=self.epoch,
+                horizon=self.cadence.horizon,
+                counters=self.counters,
+            ),
+            history=self._history,
+            publisher=self._publisher,
+            tokens=self._tokens,
+            inputs=self._inputs,
+            snapshot_every=self.cadence.snapshot_every,
+            hash_every=self.cadence.hash_every,
+            counters=self.counters,
+            lock=self._lock,
+            record=self._record,
+        )
+
+    def _make_answers(self) -> Answers:
+        return Answers(
+            self._session,
+            self._keys,
+            epoch=self.epoch,
+            hash_every=self.cadence.hash_every,
+            about=self.about,
+            view=self.view_about,
+            status=self.status,
+            settled=self._settled,
+            history=self._history,
+        )
 
     def run(
         self,
@@ -160,8 +159,8 @@ class Server(Closing):
 
         A slow-down is logged, once per second at most.
         """
-        self._schedule = Schedule(self.rate)
-        ticks = None if seconds is None else round(seconds * self.rate)
+        self._schedule = Schedule(self.cadence.rate)
+        ticks = None if seconds is None else round(seconds * self.cadence.rate)
         told_lost, told_at = 0.0, time.monotonic()
         while not stop.is_set() and (ticks is None or ticks > 0):
             self._schedule.wait(stop)
@@ -179,7 +178,9 @@ class Server(Closing):
                 break
             if self._schedule.seconds_lost > told_lost and time.monotonic() - told_at > 1:
                 told_lost, told_at = self._schedule.seconds_lost, time.monotonic()
-                log.warning("too slow for %g ticks per second: %.2f s lost so far", self.rate, told_lost)
+                log.warning(
+                    "too slow for %g ticks per second: %.2f s lost so far", self.cadence.rate, told_lost
+                )
 
     def _deserted(self) -> bool:
         with self._lock:
@@ -191,34 +192,11 @@ class Server(Closing):
 
     def about(self) -> About:
         """What a client must know to join. Safe from any thread."""
-        return About(
-            **self._about_world(),
-            snapshot_every=self._snapshot_every,
-            hash_every=self._hash_every,
-            history_ticks=self._history.span,
-        )
+        return self._description.about(tick=self._now)
 
     def view_about(self) -> ViewAbout:
         """What a view must know. Safe from any thread."""
-        return ViewAbout(
-            **self._about_world(),
-            balls=self._balls,
-            reference_speed=self._reference_speed,
-            regions=self._terms,
-        )
-
-    def _about_world(self) -> dict[str, Any]:
-        """The fields of AboutWorld."""
-        return {
-            "epoch": self.epoch,
-            "world": self.settings.world,
-            "version": __version__,
-            "step_version": _core.STEP_VERSION,
-            "scene": self._ruled_scene_message,
-            "model": self.world.model.to_message(),
-            "rate": self.rate,
-            "tick": self._now,
-        }
+        return self._description.view_about(tick=self._now, balls=self._balls)
 
     def status(self) -> Status:
         """How it goes. Safe from any thread."""
@@ -227,7 +205,7 @@ class Server(Closing):
                 epoch=self.epoch,
                 world=self.settings.world,
                 tick=self._now,
-                rate=self.rate,
+                rate=self.cadence.rate,
                 balls=self._balls,
                 clients=self._players.status(),
                 refusals=self._players.refusals(),
@@ -240,7 +218,14 @@ class Server(Closing):
         """Finish the record, leave the network. False if Zenoh did not finish within `timeout` seconds."""
         if self._record is not None:
             self._record.close()
-        declared = (self._teller, *self._declared, *self._regions.declared)
+        declared: tuple[Declared, ...] = (
+            self._teller,
+            self._inputs,
+            self._tokens,
+            *self._answers.declared,
+            *self._publisher.declared,
+            *self._regions.declared,
+        )
         closed = close_session(self._session, declared, timeout=timeout)
         if not closed:
             log.error("the network session did not close within %g s", timeout)
