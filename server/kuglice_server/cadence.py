@@ -13,6 +13,9 @@ __all__ = ["Cadence"]
 HISTORY_SECONDS = 60
 LEAST_HISTORY = 600
 EARLIEST_SECONDS = 2
+LEAST_GRACE_SECONDS = 1.0
+"""Of a client that opens its link anew the end of the old session may be told first, or last. By then it has been told
+of again, or heard: it speaks ten times per second."""
 HASHED_BALLS = 100_000
 """Up to so many balls every state's hash is told."""
 
@@ -46,7 +49,7 @@ class Cadence:
             region_every=max(1, round(rate / settings.region_rate)),
             history=max(LEAST_HISTORY, round(HISTORY_SECONDS * rate)),
             horizon=max(1, round(EARLIEST_SECONDS * rate)),
-            grace=round(settings.grace * rate),
+            grace=max(1, round(max(settings.grace, LEAST_GRACE_SECONDS) * rate)),
         )
 
     @property

@@ -24,9 +24,9 @@ class ServerSettings:
     `rate`: ticks per second of wall clock (None: the scene's). `snapshot_every`: ticks between published
     snapshots (None: a second's worth). `hash_every`: ticks between states whose hash is told (None: every one,
     or one per second where that would cost too much). `grace`: seconds for which a player whose link was cut
-    keeps its ball. `region_rate`: times per second that views are told of what they
-    look at. `threads`: how many share the work of a step. `insecure`:
-    listen on addresses that others can reach, although there are no accounts and no encryption yet.
+    keeps its ball, and 1 at the least: who has only opened another link is known by then. `region_rate`: times
+    per second that views are told of what they look at. `threads`: how many share the work of a step.
+    `insecure`: listen on addresses that others can reach, although there are no accounts and no encryption yet.
     """
 
     world: str

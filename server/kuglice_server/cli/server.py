@@ -66,7 +66,9 @@ def server(
     ] = 10.0,
     grace: Annotated[
         float,
-        typer.Option(help="Seconds for which a player whose link was cut keeps its ball, to go on with it."),
+        typer.Option(
+            help="Seconds for which a player whose link was cut keeps its ball, to go on with it; less than 1 is 1."
+        ),
     ] = 10.0,
     record: Annotated[Path | None, typer.Option(callback=writable_file, help="Write a replay file.")] = None,
     threads: Threads = 1,
