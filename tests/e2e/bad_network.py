@@ -8,11 +8,14 @@ from pathlib import Path
 from typing import Any
 
 from e2e.processes import Command, until
+from e2e.recording import Recording
 from e2e.verdict import CHECKING, assert_all_equal
 from kuglice.lab.network import Conditioner
-from kuglice.replay import Replay
 
 __all__ = ["Play"]
+
+PATIENT = ("--grace", 600)
+"""Whoever is cut off may take its time to come back."""
 
 
 class Play:
@@ -29,9 +32,9 @@ class Play:
         self._start = start
         self._link = link
         self._connect = f"{protocols}/{link.client_address}"
-        self._recording = folder / "bad.kuglice"
-        listen = ("--listen", f"{protocols}/{link.server_address}", "--insecure")
-        arguments = ("server", scene, *listen, "--record", self._recording, "--json")
+        self.recording = Recording(folder / "bad.kuglice")
+        listen = ("--listen", f"{protocols}/{link.server_address}", "--insecure", *PATIENT)
+        arguments = ("server", scene, *listen, "--record", self.recording.path, "--json")
         self.server = start(*arguments, prefix=link.server_prefix)
 
     def join(self, name: str, bot: str | None = None) -> Command:
@@ -53,19 +56,11 @@ class Play:
         until(lambda: "looking at world" in view.err, what="the view looks")
         return view
 
-    def go_on(self, ticks: int) -> int:
-        """Let the server run so many ticks more; returns the one that it has reached."""
-        until(self._recording.exists, what="a recording")
-        wanted = len(Replay.load(self._recording)) + ticks
-        until(lambda: len(Replay.load(self._recording)) >= wanted, what=f"{ticks} more ticks")
-        return wanted
-
     def end(self, *clients: Command) -> list[dict[str, Any]]:
         """The figures of the clients, after a check that everybody had the same states."""
         for client in clients:
             client.signal(signal.SIGINT)
         figures = [client.figures() for client in clients]
-        self.server.signal(signal.SIGINT)
-        self.server.figures()
-        assert_all_equal(self._recording, figures)
+        self.server.end()
+        assert_all_equal(self.recording.path, figures)
         return figures

@@ -22,7 +22,9 @@ def free_endpoint() -> str:
         return f"tcp/127.0.0.1:{probe.getsockname()[1]}"
 
 
-def until(condition: Callable[[], Any], *, seconds: float = 30.0, what: str = "condition") -> Any:
+def until(
+    condition: Callable[[], Any], *, seconds: float = 60.0, every: float = 0.005, what: str = "condition"
+) -> Any:
     """The first true value of `condition`; fails after a time that only something broken would take."""
     deadline = time.monotonic() + seconds
     while True:
@@ -30,7 +32,7 @@ def until(condition: Callable[[], Any], *, seconds: float = 30.0, what: str = "c
         if value:
             return value
         assert time.monotonic() < deadline, f"{what}: not within {seconds} s"
-        time.sleep(0.005)
+        time.sleep(every)
 
 
 class Command:
@@ -83,12 +85,17 @@ class Command:
         self._process.kill()
         self._process.wait()
 
-    def wait(self, *, seconds: float = 60.0) -> int:
+    def wait(self, *, seconds: float = 120.0) -> int:
         """The exit status."""
         try:
             return self._process.wait(seconds)
         except subprocess.TimeoutExpired:
             raise AssertionError(f"{self._arguments}: still running after {seconds} s:\n{self.err}") from None
+
+    def end(self) -> dict[str, Any]:
+        """What it printed with --json, told to end now."""
+        self.signal(signal.SIGINT)
+        return self.figures()
 
     def figures(self, *, status: int = 0) -> dict[str, Any]:
         """What it printed with --json, once it has ended with `status`."""

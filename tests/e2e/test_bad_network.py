@@ -29,7 +29,8 @@ def link(request):
 def test_players_act_and_agree_under_delay_jitter_and_loss(start, scene, tmp_path, link):
     play = Play(start, scene, tmp_path, link)
     players = [play.join("ana", "chaser"), play.join("bob", "herder")]
-    play.go_on(200)
+    play.recording.go_on(240)
+    play.recording.acted(*players)
     for figures in play.end(*players):
         assert figures["hashes_checked"] > 150
         assert figures["inputs_accepted"] >= 10
@@ -41,12 +42,12 @@ def test_players_act_and_agree_under_delay_jitter_and_loss(start, scene, tmp_pat
 def test_a_player_that_was_cut_off_is_missed_and_goes_on_with_its_ball(start, scene, tmp_path, link):
     play = Play(start, scene, tmp_path, link)
     player = play.join("ana", "orbiter")
-    play.go_on(60)
+    play.recording.go_on(60)
     link.cut(5.0)
     until(lambda: "ana (client 1) is away" in play.server.err, what="ana is missed")
     until(lambda: "ana (client 1) is back" in play.server.err, what="ana is back")
-    back = play.go_on(0)
-    play.go_on(90)
+    back = play.recording.go_on(0)
+    play.recording.go_on(90)
     assert play.server.err.count("ana joins") == 1
     assert "leaves" not in play.server.err
     (figures,) = play.end(player)
@@ -58,7 +59,7 @@ def test_a_player_that_was_cut_off_is_missed_and_goes_on_with_its_ball(start, sc
 def test_a_goodbye_arrives_though_the_link_is_closed_right_behind_it(start, scene, tmp_path, link):
     play = Play(start, scene, tmp_path, link)
     player = play.join("ana", "orbiter")
-    play.go_on(30)
+    play.recording.go_on(30)
     player.signal(signal.SIGINT)
     player.figures()
     until(lambda: "ana (client 1) leaves" in play.server.err, what="ana has left in order")
@@ -71,7 +72,7 @@ def test_a_goodbye_that_is_lost_at_first_arrives_too(start, scene, tmp_path):
     with open_link(BAD, "tunnel") as link:
         play = Play(start, scene, tmp_path, link)
         player = play.join("ana", "orbiter")
-        play.go_on(30)
+        play.recording.go_on(30)
         link.cut(0.3)
         player.signal(signal.SIGINT)
         player.figures()
@@ -82,9 +83,9 @@ def test_a_goodbye_that_is_lost_at_first_arrives_too(start, scene, tmp_path):
 def test_a_stall_costs_time_and_nothing_else(start, scene, tmp_path, link):
     play = Play(start, scene, tmp_path, link)
     player = play.join("ana", "chaser")
-    play.go_on(60)
+    play.recording.go_on(60)
     link.stall(1.0)
-    play.go_on(150)
+    play.recording.go_on(240)
     assert "leaves" not in play.server.err
     (figures,) = play.end(player)
     assert figures["snapshots_taken"] == 0
@@ -95,7 +96,8 @@ def test_packets_that_overtake_and_come_twice_change_nothing(start, scene, tmp_p
     link.change(Conditions(round_trip=0.1, jitter=0.5, loss=0.02, duplicate=0.1, reorder=True, seed=5))
     play = Play(start, scene, tmp_path, link)
     player = play.join("ana", "orbiter")
-    play.go_on(150)
+    play.recording.go_on(240)
+    play.recording.acted(player)
     (figures,) = play.end(player)
     assert figures["inputs_accepted"] >= 5
     assert figures["hashes_checked"] > 100
