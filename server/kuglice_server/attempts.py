@@ -2,7 +2,7 @@
 
 Every input was checked when it came in, but only alone: together, or held for long enough, inputs that are each within
 their bounds can still ask for more than a tick can give (errors.StepError), or for more than it should take: a tick has
-a budget of its own here, well below what the step would go on with. A tick that is made within it is made everywhere.
+a budget of its own here, well below what the step would go on with, kept or broken by the same ticks everywhere.
 """
 
 from __future__ import annotations

@@ -106,7 +106,7 @@ class World:
     def step(self, inputs: bytes, dt: float | None = None, budget: int | None = None) -> None:
         """One tick. `inputs` is any number of input records in any order; `dt` overrides 1 / tick_rate.
 
-        `budget` bounds the pairs that `event` looks at.
+        `budget` bounds the pairs that `event` looks at; whether it is enough depends on neither threads nor history.
         """
 
     def run(self, ticks: int) -> None:

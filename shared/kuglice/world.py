@@ -117,11 +117,12 @@ class World:
     ) -> None:
         """One tick with inputs in any order, or with records that `pack` made.
 
-        dt, in seconds, replaces 1 / tick_rate for loops of variable step. `budget` bounds the work: the pairs
-        that the treatment `event` looks at, about 20 ns each. A tick that is made within one is made by
-        everybody, with the same bits; BudgetError means that a larger one may make it. Raises InputError for
-        what is no input, LentError while lent, LimitError for a budget that is none, StepError for a tick that
-        cannot be made.
+        dt, in seconds, replaces 1 / tick_rate for loops of variable step. `budget` bounds the work: how many
+        pairs of balls the treatment `event` looks at, because their paths in this tick may cross, about 20 ns
+        each; substeps share it equally. Whether a tick is made within it is as much a matter of state, inputs,
+        model and dt alone as its bits are; BudgetError means that a larger one may make it. Raises InputError
+        for what is no input, LentError while lent, LimitError for a budget that is none, StepError for a tick
+        that cannot be made.
         """
         if budget is not None and not 0 <= budget < MOST_PAIRS:
             raise LimitError(f"step: budget = {budget!r}: must be at least 0 and below {MOST_PAIRS}")

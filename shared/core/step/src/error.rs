@@ -31,7 +31,7 @@ pub enum Error {
         /// The bound.
         limit: u64,
     },
-    /// A tick wanted to look at more pairs than the caller gave it. Where that is depends on the broadphase.
+    /// A tick wanted to look at more pairs than the caller gave it: the same tick everywhere.
     Budget {
         /// The tick that was not completed.
         tick: u64,

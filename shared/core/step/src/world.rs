@@ -105,8 +105,9 @@ impl World {
         self.step_within(inputs, dt, u64::MAX)
     }
 
-    /// As [`World::step`], with a bound on the work: the pairs that `event` looks at. A tick that is made within it is
-    /// made everywhere, with the same bits; one that is not may be made elsewhere.
+    /// As [`World::step`], with a bound on the work: the pairs of balls that `event` looks at because their paths may
+    /// cross, and the events, in each substep its equal share of them. Like all that comes of a step, whether it is made
+    /// depends on nothing but the state, the inputs, the model, `dt` and `budget`.
     ///
     /// # Errors
     /// Those of [`World::step`], and [`Error::Budget`].
@@ -146,7 +147,7 @@ impl World {
         }
     }
 
-    fn try_step(&mut self, inputs: &[Input], dt: Option<f64>, mut budget: u64) -> Result<(), Error> {
+    fn try_step(&mut self, inputs: &[Input], dt: Option<f64>, budget: u64) -> Result<(), Error> {
         let state = &mut self.state;
         self.inputs.clear();
         self.inputs.extend_from_slice(inputs);
@@ -173,7 +174,7 @@ impl World {
                 tick: state.tick,
                 time: start + f64::from(substep) * part,
                 dt: part,
-                budget: &mut budget,
+                budget: budget / u64::from(self.model.substeps()),
                 last: &mut self.last,
                 finite: &mut finite,
             })?;

@@ -59,7 +59,7 @@ fn a_tick_that_looks_at_too_much_changes_nothing() {
             assert_eq!(world.snapshot(), before);
             enough += 1 + enough / 8;
         }
-        // Some of those ticks failed after balls had collided.
-        assert!(enough > COUNT && world.state().counters.collisions > 0);
+        // Of those ticks some failed after balls had collided: fewer pairs than half the balls are near each other at first.
+        assert!(enough > COUNT / 2 && world.state().counters.collisions > 0);
     }
 }

@@ -57,12 +57,6 @@ impl Found {
         &self.lists
     }
 
-    /// How many pairs there are.
-    #[must_use]
-    pub fn count(&self) -> usize {
-        self.lists.iter().map(Vec::len).sum()
-    }
-
     /// All pairs.
     pub fn iter(&self) -> impl Iterator<Item = Pair> + Clone + '_ {
         self.lists.iter().flatten().copied()

@@ -44,8 +44,8 @@ pub struct Substep<'a> {
     pub time: f64,
     /// Length in seconds.
     pub dt: f64,
-    /// Pairs that `event` may still look at in this tick; see [`Error::Budget`].
-    pub budget: &'a mut u64,
+    /// Pairs that `event` may look at in this substep; see [`Error::Budget`].
+    pub budget: u64,
     /// Keeps what a failed tick goes back to.
     pub(crate) last: &'a mut Last,
     /// Set by a treatment that knows every number to be finite; else the world looks for itself.

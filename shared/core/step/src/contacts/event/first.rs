@@ -99,9 +99,11 @@ impl First {
         });
     }
 
-    /// How many pairs were looked at.
-    pub(super) fn pairs(&self) -> usize {
-        self.found.count()
+    /// How many of the pairs do overlap.
+    pub(super) fn overlapping(&self, paths: &Paths) -> usize {
+        let discs = paths.discs();
+        let overlap = |&(first, second): &Pair| discs.overlap(first as usize, second as usize);
+        self.found.iter().filter(overlap).count()
     }
 
     /// How many collisions were predicted.

@@ -9,6 +9,7 @@
 //! collides at once if it approaches and is left alone if it recedes (Bannerman et al., arXiv 1211.6718). Contacts at
 //! rest and collapse below restitution 1: see [`contact`].
 
+mod budget;
 mod contact;
 mod first;
 mod groups;
@@ -27,6 +28,7 @@ use crate::force::{Acceleration, Body, Field};
 use crate::walls::Walls;
 use crate::{Balls, Error, Vec2};
 
+use budget::Budget;
 use first::First;
 use groups::Grouped;
 use paths::{Motion, Paths};
@@ -68,13 +70,14 @@ impl Contacts for EventDriven {
         }
         *substep.finite = false;
         self.first.predict(&mut self.paths, substep);
-        spend(substep, self.first.pairs())?;
+        let mut budget = Budget::new(substep.tick, substep.budget);
+        budget.spend(self.first.overlapping(&self.paths))?;
         if let Some(grouped) = &mut self.grouped {
             grouped.note(substep.balls.len(), self.first.events());
         }
         substep.last.keep(substep.balls, substep.team);
         self.sequence
-            .run(&mut self.paths, substep, self.first.lists_mut())?;
+            .run(&mut self.paths, substep, &mut budget, self.first.lists_mut())?;
         self.end(substep);
         Ok(())
     }
@@ -164,17 +167,6 @@ fn predict_walls(
         if let Some(time) = predict::wall(paths.length, radius(balls, index), piece, &wall) {
             show(Event::of_wall(time, party, number));
         }
-    }
-}
-
-/// Takes so many pairs from what the tick was given.
-fn spend(substep: &mut Substep<'_>, pairs: usize) -> Result<(), Error> {
-    match substep.budget.checked_sub(pairs as u64) {
-        Some(left) => {
-            *substep.budget = left;
-            Ok(())
-        }
-        None => Err(Error::Budget { tick: substep.tick }),
     }
 }
 

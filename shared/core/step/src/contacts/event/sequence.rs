@@ -1,10 +1,11 @@
 //! All events of a substep in the order of their times, from one queue.
 
+use super::budget::Budget;
 use super::contact::Law;
 use super::first::List;
 use super::paths::Paths;
 use super::queue::{Event, Party, Queue};
-use super::{event_limit, predict, predict_walls, spend};
+use super::{event_limit, predict, predict_walls};
 use crate::contacts::{EVENT_LIMIT, Substep};
 use crate::walls::Walls;
 use crate::{Balls, Error};
@@ -23,6 +24,7 @@ impl Sequence {
         &mut self,
         paths: &mut Paths,
         substep: &mut Substep<'_>,
+        budget: &mut Budget,
         predicted: impl Iterator<Item = &'a mut List>,
     ) -> Result<(), Error> {
         let walls = Walls::of(substep.rules);
@@ -35,7 +37,7 @@ impl Sequence {
             if count + paths.supports.sweeps() > EVENT_LIMIT {
                 return Err(event_limit(substep, &event));
             }
-            spend(substep, 1)?;
+            budget.spend(1)?;
             let first = event.first as usize;
             self.changed.clear();
             match event.partner.as_ball() {
@@ -53,25 +55,27 @@ impl Sequence {
                 }
             }
             for at in 0..self.changed.len() {
-                self.predict_again(paths, substep, walls.as_ref(), self.changed[at]);
-                spend(substep, self.near.len())?;
+                let met = self.predict_again(paths, substep, walls.as_ref(), self.changed[at]);
+                budget.spend(met)?;
             }
         }
         Ok(())
     }
 
-    /// Puts a ball that was hit elsewhere in the tree and predicts its next collisions.
+    /// Puts a ball that was hit elsewhere in the tree and predicts its next collisions. Returns how many other discs its
+    /// own overlaps.
     fn predict_again(
         &mut self,
         paths: &mut Paths,
         substep: &mut Substep<'_>,
         walls: Option<&Walls>,
         index: usize,
-    ) {
+    ) -> usize {
         let balls = &*substep.balls;
         paths.sweep_one(balls, index);
         let (center, reach) = (paths.center[index], paths.reach[index]);
         substep.broadphase.relocate(index, center, reach);
+        let (discs, mut met) = (paths.discs(), 0);
         self.near.clear();
         substep.broadphase.query(center, reach, &mut self.near);
         for &other in &self.near {
@@ -79,6 +83,7 @@ impl Sequence {
             if other == index {
                 continue;
             }
+            met += usize::from(discs.overlap(index, other));
             let (first, second) = balls.in_id_order(index, other);
             if let Some(time) = predict::pair(paths, balls, first, second) {
                 self.queue.push(Event::of_pair(
@@ -94,6 +99,7 @@ impl Sequence {
             let path = (&paths.piece(balls, index), party(paths, balls, index));
             predict_walls(paths, balls, walls, index, path, |event| self.queue.push(event));
         }
+        met
     }
 }
 

@@ -33,7 +33,15 @@ impl Groups {
         )?;
         self.near.clear();
         beyond.query(center, reach + ground.strips.slack, &mut self.near);
-        self.looked_at += 1 + self.near.len() as u64;
+        self.looked_at += self.near.len() as u64;
+        if self.actors.all[slot].far > 0.0 {
+            // Those that were hit before it was relocated have not found it there.
+            let hits = self
+                .near
+                .iter()
+                .map(|&other| self.hits_of(ground, beyond, other as usize));
+            self.looked_at += hits.sum::<u64>();
+        }
         if self.looked_at > ground.budget {
             return Err(Halt::Stuck);
         }
@@ -50,6 +58,19 @@ impl Groups {
             predict_walls(paths, balls, walls, ball, path, |event| self.queue.push(event));
         }
         Ok(())
+    }
+
+    /// How often a ball was hit, whichever strip ran it.
+    fn hits_of(&self, ground: &Ground<'_>, beyond: &Beyond<'_>, ball: usize) -> u64 {
+        let hits = match (self.find(ground, ball), beyond) {
+            (Some(slot), _) => self.actors.hits.get(slot),
+            (None, Beyond::Open(_, strips)) => {
+                let strip = &strips[ground.strips.of(ground.paths.center[ball].y)];
+                (strip.actors.hits).get(ground.whereabouts.get(ball) as usize)
+            }
+            (None, Beyond::Closed(_)) => None,
+        };
+        hits.map_or(0, |&hits| u64::from(hits))
     }
 
     /// Sees to it that an actor is found where it is now: so far from the centre of its first disc, at the most.

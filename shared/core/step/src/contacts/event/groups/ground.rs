@@ -18,7 +18,7 @@ pub(super) struct Ground<'a> {
     pub(super) law: Law,
     pub(super) strips: &'a Strips,
     pub(super) whereabouts: &'a Whereabouts,
-    /// Pairs that may be looked at.
+    /// Pairs that may be looked at: see [`super::super::budget`].
     pub(super) budget: u64,
 }
 

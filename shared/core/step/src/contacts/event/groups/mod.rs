@@ -102,7 +102,6 @@ impl Grouped {
         if let Some(tally) = tally {
             let events: usize = self.groups.iter().map(Groups::predicted).sum();
             self.note(count, events);
-            *substep.budget -= tally.pairs;
             substep.counters.collisions += tally.collisions;
             substep.counters.wall_hits += tally.wall_hits;
             self.end(paths, substep);
@@ -134,7 +133,7 @@ impl Grouped {
             law: Law::new(paths.motion, substep.rules.restitution(), substep.dt),
             strips: &self.strips,
             whereabouts: &self.whereabouts,
-            budget: *substep.budget,
+            budget: substep.budget,
         };
         let broadphase = &*substep.broadphase;
         let batches = &self.batches;
@@ -159,7 +158,7 @@ impl Grouped {
             for groups in self.groups.iter().chain([&self.left]) {
                 tally.add(&groups.total());
             }
-            stuck = self.left.stuck || tally.events > EVENT_LIMIT || tally.pairs > *substep.budget;
+            stuck = self.left.stuck || tally.events > EVENT_LIMIT || tally.pairs > substep.budget;
         }
         if stuck {
             for groups in self.groups.iter().chain([&self.left]) {

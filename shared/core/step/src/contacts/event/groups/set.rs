@@ -22,7 +22,7 @@ const LEAST_PATIENCE: u64 = 1000;
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Tally {
     pub(super) events: u64,
-    /// Events and pairs that were looked at.
+    /// No fewer than events were done, and pairs looked at, by the count of [`super::super::budget`].
     pub(super) pairs: u64,
     pub(super) collisions: u64,
     pub(super) wall_hits: u64,
@@ -86,7 +86,7 @@ pub(super) struct Groups {
     list: List,
     /// How many more events may be done.
     pub(super) patience: u64,
-    /// Events that were done, and pairs that were looked at, taken back or not.
+    /// Pairs that were looked at, taken back or not.
     pub(super) looked_at: u64,
     /// The order of all times has to do it.
     pub(super) stuck: bool,
@@ -195,15 +195,13 @@ impl Groups {
 
     /// What all groups did together.
     pub(super) fn total(&self) -> Tally {
-        let mut total = Tally {
-            pairs: self.looked_at,
-            ..Tally::default()
-        };
+        let mut total = Tally::default();
         for group in &self.groups {
             total.events += u64::from(group.done.events);
             total.collisions += u64::from(group.done.collisions);
             total.wall_hits += u64::from(group.done.wall_hits);
         }
+        total.pairs = self.looked_at + total.events;
         total
     }
 
