@@ -58,7 +58,6 @@ class Client(Closing):
         self.link = Link(settings.connect, deadline=deadline, stop=self.stop)
         self.renewal = Renewal(self.link, DatagramWatch(self.link))
         try:
-            self._study = None if settings.study is None else StudyRecorder(settings.study)
             waiting = Waiting(self.link, deadline=deadline, stop=self.stop)
             world = settings.world or find_world(waiting)
             self._keys = Keys(world)
@@ -66,7 +65,10 @@ class Client(Closing):
             self.link.listen(self._keys, snapshots=settings.check_snapshots)
             if settings.name is not None:
                 self.link.show(settings.name, self._session)
-            self._enter(self._join(waiting), deadline)
+            joined = self._join(waiting)
+            # Not before: who does not get in must not cost a study of an earlier time.
+            self._study = None if settings.study is None else StudyRecorder(settings.study)
+            self._enter(joined, deadline)
         except BaseException:
             self.close()
             raise

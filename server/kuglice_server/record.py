@@ -6,7 +6,7 @@ import logging
 from pathlib import Path
 
 from kuglice import World
-from kuglice.errors import ReplayError
+from kuglice.exclusive import make_folder
 from kuglice.protocol import StretchedTick
 from kuglice.replay import Recorder
 
@@ -16,14 +16,14 @@ log = logging.getLogger(__name__)
 
 
 class Record:
-    """A replay file that grows. Raises ReplayError if it cannot be begun."""
+    """A replay file that grows. An existing one is replaced, but never one that another server still writes.
+
+    Raises ReplayError if it cannot be begun.
+    """
 
     def __init__(self, path: Path, world: World) -> None:
         self._path = path
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise ReplayError(f"{path.parent}: cannot be made: {error.strerror}") from error
+        make_folder(path)
         self._recorder: Recorder | None = Recorder(path, world)
 
     def add(self, entry: StretchedTick) -> None:

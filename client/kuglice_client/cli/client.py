@@ -98,7 +98,8 @@ def client(
         Path | None,
         typer.Option(
             callback=writable_file,
-            help="Record what is seen, acted and confirmed, for `kuglice study`: up to 1 GB an hour.",
+            help="Record what is seen, acted and confirmed, for `kuglice study`: up to 1 GB an hour. An "
+            "existing file is replaced once you have joined, unless another client writes it.",
         ),
     ] = None,
     desync_reports: Annotated[

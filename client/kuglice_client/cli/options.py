@@ -18,12 +18,20 @@ Seconds = Annotated[
 Wait = Annotated[float, typer.Option(min=0.0, help="Seconds to keep trying to join.")]
 Render = Annotated[
     Path | None,
-    typer.Option(callback=writable, help="Film what is seen: .mp4, .webm, .gif, or frame-%05d.png."),
+    typer.Option(
+        callback=writable,
+        help="Film what is seen: .mp4, .webm, .gif, or frame-%05d.png. An existing film is replaced once you have "
+        "joined.",
+    ),
 ]
 FilmRate = Annotated[int, typer.Option(min=1, max=240, help="Frames per second of the film.")]
 FilmStyle = Annotated[str, typer.Option(help="discs or fluid.")]
 SummaryJson = Annotated[
-    Path | None, typer.Option(callback=writable_file, help="Write the closing figures to this file too.")
+    Path | None,
+    typer.Option(
+        callback=writable_file,
+        help="Write the closing figures to this file too; an existing one is replaced.",
+    ),
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print the closing figures as JSON.")]
 

@@ -70,7 +70,13 @@ def server(
             help="Seconds for which a player whose link was cut keeps its ball, to go on with it; less than 1 is 1."
         ),
     ] = 10.0,
-    record: Annotated[Path | None, typer.Option(callback=writable_file, help="Write a replay file.")] = None,
+    record: Annotated[
+        Path | None,
+        typer.Option(
+            callback=writable_file,
+            help="Write a replay file. An existing one is replaced once the server runs, unless another writes it.",
+        ),
+    ] = None,
     threads: Threads = 1,
     seconds: Annotated[
         float | None, typer.Option(min=0.0, help="Stop after this long. [default: on SIGINT or SIGTERM]")

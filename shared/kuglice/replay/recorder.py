@@ -10,6 +10,7 @@ from pathlib import Path
 from kuglice import _core
 from kuglice.closing import Closing
 from kuglice.errors import LimitError, ReplayError
+from kuglice.exclusive import open_exclusive
 from kuglice.inputs import Input, pack
 from kuglice.replay.format import MAGIC, End, Head, State, Tick
 from kuglice.replay.framing import write_record
@@ -30,7 +31,7 @@ class Recorder(Closing):
     Hashes are written every `hash_every` ticks; whole states every `state_every` and at the end, which is
     what can name the balls that differ: chaos spreads from the first of them until the next state. None
     writes states as often as 64 KiB per second of play allow, at least 10 ticks apart. An existing file is
-    replaced. Raises ReplayError if the file cannot be written.
+    replaced. Raises ReplayError if the file cannot be written, or if another recorder writes it.
     """
 
     def __init__(
@@ -58,10 +59,7 @@ class Recorder(Closing):
             state=snapshot if world.tick else None,
             hash_every=hash_every,
         )
-        try:
-            self._file = Path(path).open("wb")  # noqa: SIM115 - close() ends what a whole run writes
-        except OSError as error:
-            raise ReplayError(f"{path}: cannot be written: {error.strerror}") from error
+        self._file = open_exclusive(Path(path))
         self._file.write(MAGIC)
         write_record(self._file, head)
         self._file.flush()

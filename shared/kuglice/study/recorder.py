@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from kuglice import _core
 from kuglice.closing import Closing
-from kuglice.errors import ReplayError
+from kuglice.exclusive import make_folder, open_exclusive
 from kuglice.inputs import Input, pack
 from kuglice.replay.framing import write_record
 from kuglice.study.format import MAGIC, Acted, Answered, DrawnFrame, Event, Joined, Rollback, State, Tick
@@ -29,18 +29,17 @@ Ids = NDArray[np.uint64]
 
 
 class StudyRecorder(Closing):
-    """Appends what happens to a client to a file (format.py). An existing file is replaced. Raises ReplayError.
+    """Appends what happens to a client to a file (format.py). An existing file is replaced.
+
+    Raises ReplayError if the file cannot be written, or if another recorder writes it.
 
     Every time `at` is in seconds of one clock. Frames say where balls were drawn as often as `seen_bytes` per second
     allow.
     """
 
     def __init__(self, path: str | PathLike[str], *, seen_bytes: float = SEEN_BYTES) -> None:
-        try:
-            Path(path).parent.mkdir(parents=True, exist_ok=True)
-            self._file = Path(path).open("wb")  # noqa: SIM115 - close() ends what a whole run writes
-        except OSError as error:
-            raise ReplayError(f"{path}: cannot be written: {error.strerror}") from error
+        make_folder(Path(path))
+        self._file = open_exclusive(Path(path))
         self._file.write(MAGIC)
         self._seen_bytes = seen_bytes
         self._seen_after = float("-inf")
