@@ -35,6 +35,7 @@ from kuglice_server.players import Players
 from kuglice_server.publish import Publisher
 from kuglice_server.record import Record
 from kuglice_server.regions import RegionPublisher, choose_terms
+from kuglice_server.rival import refuse_rival
 from kuglice_server.schedule import Schedule
 from kuglice_server.settings import ServerSettings
 from kuglice_server.tick_loop import TickLoop
@@ -74,6 +75,8 @@ class Server(Closing):
                 server_configuration(listen=settings.listen, connect=settings.connect)
             )
             undo.callback(close_session, self._session, ())
+            if settings.connect:
+                refuse_rival(self._session, self._keys, settings.connect)
             # Not before the address is ours: what is there already may be the recording of the server that has it.
             self._record = Record(settings.record, self.world) if settings.record is not None else None
             if self._record is not None:

@@ -290,3 +290,11 @@ def test_digits_are_grouped_in_counts_and_not_in_names(capsys):
     shown = capsys.readouterr().out
     assert "1763787695123456789" in shown
     assert "12,345" in shown
+
+
+def test_several_numbers_are_shown_as_briefly_as_one(capsys):
+    print_figures(
+        "", {"view": {"rectangle": [219.67363152500184, 200.0, 12345.6], "none": []}}, as_json=False
+    )
+    shown = capsys.readouterr().out
+    assert "220, 200, 12,346" in shown

@@ -55,4 +55,6 @@ def parse_rectangle(text: str) -> Rectangle:
         x, y, width, height = map(float, text.split(","))
     except ValueError:
         raise ProtocolError(f"view {text!r}: must be four numbers X,Y,WIDTH,HEIGHT") from None
+    if width <= 0 or height <= 0:
+        raise ProtocolError(f"view {text!r}: width and height must be above 0")
     return check_rectangle((x, y, x + width, y + height))

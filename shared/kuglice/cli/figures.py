@@ -87,4 +87,6 @@ def _shown(figure: str, value: object) -> str:
         return f"{value:,.3g}" if abs(value) < 1000 else f"{value:,.0f}"
     if isinstance(value, bool):
         return "yes" if value else "no"
+    if isinstance(value, list | tuple):
+        return ", ".join(_shown(figure, one) for one in value)
     return f"{value:,}" if isinstance(value, int) else str(value)

@@ -18,6 +18,7 @@ def test_a_rectangle_is_its_corner_and_its_size():
         ("1,2,3", "must be four numbers"),
         ("a,b,c,d", "must be four numbers"),
         ("0,0,0,1", "above 0"),
+        ("9,9,-1,5", "view '9,9,-1,5': width and height must be above 0"),
         ("0,0,nan,1", "must be within"),
         ("0,0,1e300,1e300", r"must be within 1e\+12 m"),
         ("-inf,0,1,1", "must be within"),

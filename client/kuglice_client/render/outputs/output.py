@@ -87,7 +87,8 @@ class Output(Closing):
 
     def _check(self) -> None:
         if self._error is not None:
-            raise PictureError(f"output {self.path}: {self._error}") from self._error
+            why = self._error.strerror if isinstance(self._error, OSError) else None
+            raise PictureError(f"output {self.path}: {why or self._error}") from self._error
 
     def _encode(self) -> None:
         try:
