@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from e2e.processes import Command, free_endpoint
+from e2e.processes import Command, free_endpoint, until
+from e2e.recording import Recording
 from server.small_arena import small_arena
 
 WORLD = "small"
@@ -36,7 +37,24 @@ def start(tmp_path: Path) -> Iterator[Callable[..., Command]]:
 
 
 @pytest.fixture
-def server(start: Callable[..., Command], scene: Path, endpoint: str, tmp_path: Path) -> Command:
+def recording(tmp_path: Path) -> Recording:
+    return Recording(tmp_path / "run.kuglice")
+
+
+@pytest.fixture
+def join(start: Callable[..., Command], endpoint: str) -> Callable[..., Command]:
+    """A client that has joined."""
+
+    def joined(*arguments: object) -> Command:
+        client: Command = start("client", "--connect", endpoint, "--wait", 60, *arguments, "--json")
+        until(lambda: "joined world" in client.err, what="a client joins")
+        return client
+
+    return joined
+
+
+@pytest.fixture
+def server(start: Callable[..., Command], scene: Path, endpoint: str, recording: Recording) -> Command:
     """Serves the small arena and records it; prints figures as JSON when it ends."""
     return start(
         "server",
@@ -44,7 +62,7 @@ def server(start: Callable[..., Command], scene: Path, endpoint: str, tmp_path: 
         "--listen",
         endpoint,
         "--record",
-        tmp_path / "run.kuglice",
+        recording.path,
         "--snapshot-every",
         20,
         "--json",

@@ -16,7 +16,7 @@ from server.small_arena import small_arena
 FASTEST = 1e150
 
 
-def test_an_input_that_makes_a_tick_impossible_is_left_out(start, endpoint, tmp_path):
+def test_an_input_that_makes_a_tick_impossible_is_left_out(start, join, endpoint, tmp_path, recording):
     limits = InputLimits(kick=FASTEST, max_balls=40, per_tick=4)
     scene = small_arena().model_copy(update={"limits": limits, "model": ModelPins(contacts="event")})
     scene.save(tmp_path / "small.toml")
@@ -26,7 +26,7 @@ def test_an_input_that_makes_a_tick_impossible_is_left_out(start, endpoint, tmp_
         "--listen",
         endpoint,
         "--record",
-        tmp_path / "run.kuglice",
+        recording.path,
         "--json",
     )
     with RawClient(endpoint, "small", "ana") as ana:
@@ -35,8 +35,8 @@ def test_an_input_that_makes_a_tick_impossible_is_left_out(start, endpoint, tmp_
         ana.send((1, asked, Kick(vx=FASTEST, vy=0.0)))
         assert ana.answer(1).tick is None
         until(lambda: ana.status().counters.get("left_out") == 1, what="it is left out")
-        player = start("client", "--connect", endpoint, "--bot", "chaser", "--seconds", 2, "--json")
-        figures = player.figures()
-    server.signal(2)
-    assert server.figures()["ticks"] > asked + 20
-    assert_all_equal(tmp_path / "run.kuglice", [figures])
+        player = join("--bot", "chaser")
+        recording.go_on(60)
+        figures = player.end()
+    assert server.end()["ticks"] > asked + 20
+    assert_all_equal(recording.path, [figures])

@@ -15,7 +15,7 @@ from kuglice.protocol import Refusal, SnapshotRequest, TickRange, decode, encode
 WORLD = "small"
 
 
-def test_garbage_on_every_key_is_counted_and_the_world_goes_on(server, start, endpoint, tmp_path):
+def test_garbage_on_every_key_is_counted_and_the_world_goes_on(server, join, endpoint, recording):
     with RawClient(endpoint, WORLD, "vandal") as vandal:
         begin = vandal.status()
         for payload in (b"", b"\xc1", b"\x93" * 5000, os.urandom(300), bytes(200_000)):
@@ -29,16 +29,15 @@ def test_garbage_on_every_key_is_counted_and_the_world_goes_on(server, start, en
         until(lambda: vandal.status().counters.get("foreign", 0) >= 5, what="foreign ones are counted")
         until(lambda: vandal.status().tick > begin.tick + 20, what="the world goes on")
         # A client beside it hears the vandal's tick messages too, and is none the worse for it.
-        player = start("client", "--connect", endpoint, "--bot", "chaser", "--seconds", 2, "--json")
-        until(lambda: "joined world" in player.err, what="a client joins")
+        player = join("--bot", "chaser")
         for _ in range(20):
             vandal.put(vandal.keys.tick, os.urandom(100))
             vandal.put(vandal.keys.snapshot, os.urandom(100))
-        figures = player.figures()
+        recording.go_on(120)
+        figures = player.end()
         assert figures["malformed_messages"] > 0
-    server.signal(2)
-    server.figures()
-    assert_all_equal(tmp_path / "run.kuglice", [figures])
+    server.end()
+    assert_all_equal(recording.path, [figures])
 
 
 def test_late_early_duplicate_forbidden_and_foreign_inputs_have_their_answers(server, endpoint):

@@ -6,14 +6,16 @@ from e2e.processes import free_endpoint, until
 from e2e.verdict import CHECKING, assert_all_equal
 
 
-def test_clients_behind_a_router_agree_on_every_state(start, server, endpoint, tmp_path):
+def test_clients_behind_a_router_agree_on_every_state(start, server, endpoint, recording):
     door = free_endpoint()
     start("router", "--connect", endpoint, "--listen", door)
-    player = start("client", *CHECKING, "--connect", door, "--bot", "chaser", "--seconds", 2, "--json")
-    figures = player.figures()
-    server.signal(2)
-    server.figures()
-    assert_all_equal(tmp_path / "run.kuglice", [figures])
+    player = start(*("client", *CHECKING, "--connect", door, "--bot", "chaser", "--wait", 60, "--json"))
+    until(lambda: "joined world" in player.err, what="a client joins")
+    recording.go_on(120)
+    recording.acted(player)
+    figures = player.end()
+    server.end()
+    assert_all_equal(recording.path, [figures])
     assert figures["inputs_accepted"] > 0
     assert figures["snapshots_checked"] > 0
 
@@ -29,5 +31,5 @@ def test_a_router_may_come_before_its_server(start, scene, endpoint):
     router = start("router", "--connect", endpoint, "--listen", door)
     until(lambda: "router from" in router.err, what="the router is there")
     start("server", scene, "--listen", endpoint)
-    player = start("client", "--connect", door, "--name", "ana", "--wait", 20, "--seconds", 1, "--json")
+    player = start("client", "--connect", door, "--name", "ana", "--wait", 60, "--seconds", 1, "--json")
     assert player.figures()["agreed"]

@@ -2,34 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import pytest
 
-from e2e.processes import Command, until
-from e2e.recording import Recording
 from e2e.verdict import CHECKING, assert_all_equal
 from kuglice.protocol import close_session, open_session, server_configuration
 
 TICKS = 240
 """Of play: well above what is asked of a client, which may be some of them behind when it is told to end."""
-
-
-@pytest.fixture
-def recording(tmp_path) -> Recording:
-    return Recording(tmp_path / "run.kuglice")
-
-
-@pytest.fixture
-def join(start, endpoint) -> Callable[..., Command]:
-    """A client that has joined."""
-
-    def joined(*arguments: object) -> Command:
-        client = start("client", "--connect", endpoint, "--wait", 60, *arguments, "--json")
-        until(lambda: "joined world" in client.err, what="a client joins")
-        return client
-
-    return joined
 
 
 def test_two_clients_and_a_server_agree_on_every_state(join, server, recording):

@@ -196,4 +196,10 @@ class _Goodbye:
         answers = self._session.get(
             self._keys.status, timeout=self.patience, congestion_control=zenoh.CongestionControl.BLOCK
         )
-        next(iter(answers), None)
+        # Where no link is left, the cut has been told of, and the server has noticed it too.
+        if next(iter(answers), None) is None and open_links(self._session):
+            log.warning(
+                "the goodbye was not answered within %g s: the server may wait for %s to come back",
+                self.patience,
+                self._who[0],
+            )
