@@ -11,7 +11,6 @@ from e2e.verdict import assert_all_equal
 from kuglice import _core
 from kuglice.inputs import Kick
 from kuglice.protocol import MAX_TOLD_TICKS
-from kuglice.replay import Replay
 from kuglice_client import Client, ClientSettings
 
 
@@ -26,7 +25,9 @@ def playing(client: Client, condition) -> None:
 def test_a_long_silence_is_filled_from_history(server, endpoint, tmp_path):
     """Two seconds of messages in a row are more than the repeats of the stream can bridge."""
     lost = range(0)
-    settings = ClientSettings(connect=(endpoint,), name="ana", bot="chaser", lose=lambda tick: tick in lost)
+    settings = ClientSettings(
+        connect=(endpoint,), name="ana", bot="chaser", wait=60.0, lose=lambda tick: tick in lost
+    )
     with Client(settings) as client:
         # From when it is there, which takes its time on a busy machine.
         lost = range(client.confirmed.tick + 30, client.confirmed.tick + 150)
@@ -44,7 +45,7 @@ def test_a_long_silence_is_filled_from_history(server, endpoint, tmp_path):
 
 def test_a_world_that_went_wrong_is_found_out_reported_and_replaced(server, endpoint, tmp_path, caplog):
     reports = tmp_path / "reports"
-    with Client(ClientSettings(connect=(endpoint,), name="ana", desync_reports=reports)) as client:
+    with Client(ClientSettings(connect=(endpoint,), name="ana", wait=60.0, desync_reports=reports)) as client:
         playing(client, lambda: client.confirmed.tick > 30)
         # A bit that flips in memory, say: here, a kick that only this client's confirmed world gets.
         flipped, tick = client.confirmed.clone(), client.confirmed.tick
@@ -84,19 +85,18 @@ def test_a_world_that_went_wrong_is_found_out_reported_and_replaced(server, endp
     assert server.wait() == 0
 
 
-def test_a_client_that_was_away_finds_the_rest_in_the_history(start, scene, endpoint, tmp_path):
+def test_a_client_that_was_away_finds_the_rest_in_the_history(start, scene, endpoint, recording):
     """Its ring keeps what is fresh and drops what is old: the older ticks are missing when it is back."""
-    record = tmp_path / "fast.kuglice"
-    server = start("server", scene, "--listen", endpoint, "--rate", 600, "--record", record, "--json")
-    with Client(ClientSettings(connect=(endpoint,), name="ana")) as client:
-        playing(client, lambda: client.confirmed.tick > 100)
+    server = start("server", scene, "--listen", endpoint, "--rate", 600, "--record", recording.path, "--json")
+    with Client(ClientSettings(connect=(endpoint,), name="ana", wait=60.0)) as client:
         reached = client.confirmed.tick
-        until(lambda: len(Replay.load(record)) > reached + 1500, what="the world goes on without her")
-        playing(client, lambda: client.confirmed.tick > reached + 1500)
+        playing(client, lambda: client.confirmed.tick > reached + 100)
+        gone_on = recording.go_on(1500)
+        playing(client, lambda: client.confirmed.tick > gone_on)
         playing(client, lambda: client.replica.follower.behind < 60)
         summary = client.summary()
     server.signal(2)
     server.figures()
     assert summary["ticks_healed_by_history"] > 300
     assert summary["snapshots_taken"] == 0
-    assert_all_equal(record, [summary])
+    assert_all_equal(recording.path, [summary])

@@ -18,6 +18,7 @@ from kuglice_client.view import View, ViewSettings
 
 WORLD = "crowd"
 VIEW = (10.0, 10.0, 22.0, 18.0)
+BUDGET = 4000
 
 
 @pytest.fixture
@@ -156,14 +157,16 @@ def test_a_hostile_region_is_refused_and_the_view_goes_on(endpoint, look, server
 
 def test_a_budget_is_kept_by_telling_far_regions_less_often(start, endpoint, server):
     figures = []
-    for budget in ([], ["--budget", 6000]):
+    for budget in ([], ["--budget", BUDGET]):
         view = start("view", "5,5,30,25", "--connect", endpoint, "--seconds", 4, *budget, "--json")
         figures.append(view.figures())
     free, bounded = figures
     assert free["regions_by_pace"] == {"1/1": free["regions_followed"]}
-    assert free["bytes_per_second_received"] > 8000
+    assert free["bytes_per_second_received"] > 1.5 * BUDGET, (
+        "there is something to save, on a busy machine too"
+    )
     # The first half second goes by a guess.
-    assert bounded["bytes_per_second_received"] < 1.15 * 6000
+    assert bounded["bytes_per_second_received"] < 1.15 * BUDGET
     assert (
         bounded["balls_followed"]
         > 0.9 * free["balls_followed"] * bounded["regions_followed"] / free["regions_followed"]
@@ -177,7 +180,7 @@ def test_a_moving_view_is_filmed(start, endpoint, server, tmp_path):
         "view",
         "5,5,16,9",
         "--pan",
-        "6,0",
+        "3,0",
         "--connect",
         endpoint,
         "--seconds",
@@ -192,7 +195,7 @@ def test_a_moving_view_is_filmed(start, endpoint, server, tmp_path):
     )
     figures = view.figures()
     assert figures["frames"] == 20
-    assert figures["rectangle"][0] == pytest.approx(5 + 6 * 2, abs=4)
+    assert figures["rectangle"][0] == pytest.approx(5 + 3 * 2, abs=4)
     assert figures["rectangle"][2] - figures["rectangle"][0] == pytest.approx(16)
     assert len(list(tmp_path.glob("frame-*.png"))) == 20
     assert re.search("looking at world crowd", view.err)
