@@ -34,9 +34,10 @@ class Candidate:
     def meets(self, scene: Scene) -> bool:
         """Whether it is accurate enough; what it costs is another question."""
         demand = demanded(scene)
-        sinks = demand < VISUAL and self.expected.depth > DEEPEST
-        drifts = self.expected.drift > min(demand, MOST_DRIFT)
-        return self.expected.error <= demand and not (self.expected.tunnels or sinks or drifts)
+        expected = self.expected
+        sinks = expected.sinks or (demand < VISUAL and expected.depth > DEEPEST)
+        drifts = expected.drift > min(demand, MOST_DRIFT)
+        return expected.error <= demand and not (expected.tunnels or sinks or drifts)
 
 
 def candidates(scene: Scene, now: Situation) -> list[Candidate]:

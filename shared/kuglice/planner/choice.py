@@ -53,7 +53,8 @@ def _shortlist(scene: Scene, now: Situation) -> Shortlist:
 
 
 def _within_budget(scene: Scene, candidate: Candidate) -> bool:
-    return scene.budget_ms is None or candidate.expected.cost_ms <= scene.budget_ms
+    expected = candidate.expected
+    return scene.budget_ms is None or max(expected.cost_ms, expected.pile_ms[0]) <= scene.budget_ms
 
 
 def _best_of_cheapest(affordable: list[Candidate]) -> Candidate:
@@ -74,7 +75,8 @@ def _closest(scene: Scene, shortlist: Shortlist) -> Candidate:
     if shortlist.meeting and not within:
         return shortlist.meeting[0]
     pool = within or shortlist.every
-    sound = [candidate for candidate in pool if not candidate.expected.tunnels] or pool
+    able = [candidate for candidate in pool if not candidate.expected.sinks] or pool
+    sound = [candidate for candidate in able if not candidate.expected.tunnels] or able
     best = min(candidate.expected.error for candidate in sound)
     return next(candidate for candidate in sound if candidate.expected.error <= 1.1 * best)
 

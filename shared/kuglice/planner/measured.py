@@ -14,7 +14,16 @@ from importlib.resources import files
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["contact_error", "contacts_cost", "drift", "force_error", "integrator_cost", "machine", "sinking"]
+__all__ = [
+    "contact_error",
+    "contacts_cost",
+    "drift",
+    "force_error",
+    "integrator_cost",
+    "machine",
+    "pile_cost",
+    "sinking",
+]
 
 Floats = NDArray[np.float64]
 
@@ -89,6 +98,12 @@ def contacts_cost(contacts: str, broadphase: str, balls: int, hits: float) -> fl
     """ns per ball-step without forces; `hits` is the collisions per ball and tick."""
     curves = _curves("balls", kind="cost", contacts=contacts, broadphase=broadphase)
     return _between(max(balls, 1), curves, lambda curve: _line(curve, hits), open_ended=True)
+
+
+def pile_cost(contacts: str) -> tuple[float, float]:
+    """ns per ball-step of balls that lie, one and two deep; 0 for treatments that carry none."""
+    costs = [cost for _, cost in _curve("x", kind="pile cost", contacts=contacts)]
+    return min(costs, default=0.0), max(costs, default=0.0)
 
 
 def integrator_cost(integrator: str) -> float:

@@ -45,6 +45,10 @@ def _integrator(scene: Scene, chosen: Candidate, every: Sequence[Candidate]) -> 
         return "without forces all integrators move balls along the same lines."
     if set(kinds) <= {"gravity", "thrust"} and chosen.model.integrator in ("verlet", "rk4"):
         return f"exact under {'uniform gravity' if kinds == ['gravity'] else 'forces that hold for a tick'}."
+    if chosen.model.contacts == "event":
+        return (
+            f"event goes with no other, since it follows parabolas; accurate enough under {', '.join(kinds)}."
+        )
     cheaper = [
         each
         for each in every
@@ -59,6 +63,8 @@ def _integrator(scene: Scene, chosen: Candidate, every: Sequence[Candidate]) -> 
             said += (
                 f"; for less, {near.model.integrator} comes to an error of {near.expected.error:.2g} radii"
             )
+        elif near.expected.sinks:
+            said += f"; with {near.model.integrator}, balls would gain or lose energy at every bounce"
         elif near.expected.drift > 0.0:
             said += (
                 f"; {near.model.integrator} would change the energy by {near.expected.drift:.2g} in a minute"
@@ -72,20 +78,29 @@ def _contacts(scene: Scene, chosen: Candidate, every: Sequence[Candidate]) -> st
     best: dict[str, Candidate] = {}
     for each in cheaper:
         other = each.model.contacts
-        if other != name and (other not in best or each.expected.error < best[other].expected.error):
+        if other != name and (other not in best or _flaws(each) < _flaws(best[other])):
             best[other] = each
     if not best:
         return f"the cheapest treatment, and good enough for {demand:g} radii."
-    return "; ".join(_refused(each, scene) for each in best.values()) + "."
+    refused: dict[str, list[str]] = {}
+    for other, each in best.items():
+        refused.setdefault(_refused(each, scene), []).append(other)
+    return "; ".join(why.format(" or ".join(names)) for why, names in refused.items()) + "."
+
+
+def _flaws(each: Candidate) -> tuple[bool, float]:
+    return each.expected.sinks, each.expected.error
 
 
 def _refused(each: Candidate, scene: Scene) -> str:
-    name = each.model.contacts
+    """A sentence with a place for the names."""
+    if each.expected.sinks:
+        return "with {}, balls that come to rest would sink through what carries them"
     if each.expected.depth > DEEPEST and each.expected.error <= demanded(scene):
-        return f"with {name}, balls that weigh on each other sink {each.expected.depth:.2g} radii deep"
+        return f"with {{}}, balls that weigh on each other sink {each.expected.depth:.2g} radii deep"
     if each.expected.tunnels and each.expected.error <= demanded(scene):
-        return f"with {name}, the fastest ball could pass through others"
-    return f"for less, {name} comes to an error of {each.expected.error:.2g} radii"
+        return "with {}, the fastest ball could pass through others"
+    return f"for less, {{}} comes to an error of {each.expected.error:.2g} radii"
 
 
 def _substeps(scene: Scene, now: Situation, chosen: Candidate, every: Sequence[Candidate]) -> str:
@@ -106,8 +121,10 @@ def _substeps(scene: Scene, now: Situation, chosen: Candidate, every: Sequence[C
 
 def _broadphase(now: Situation, name: str) -> str:
     if name == "brute":
-        return f"{now.balls} balls are few: testing every pair costs less than keeping a tree."
-    return f"the cheapest for {now.balls} balls{', and more may come' if now.open else ''}."
+        said = f"{now.balls} balls are few" if now.balls > 1 else "one ball is little"
+        return f"{said}: testing every pair costs less than keeping a tree."
+    count = "one ball" if now.balls == 1 else f"{now.balls} balls"
+    return f"the cheapest for {count}{', and more may come' if now.open else ''}."
 
 
 def _warnings(scene: Scene, chosen: Candidate) -> Iterator[str]:
@@ -116,9 +133,20 @@ def _warnings(scene: Scene, chosen: Candidate) -> Iterator[str]:
         yield f"warning: the pins miss the accuracy of {demand:g} radii."
     if expected.tunnels:
         yield "warning: with these pins the fastest balls may pass through others."
-    if scene.budget_ms is not None and expected.cost_ms > scene.budget_ms:
+    least, most = expected.pile_ms
+    if least > expected.cost_ms:
+        yield (
+            "warning: that is the cost at the start; once the balls lie, a tick takes about"
+            f" {least:.2g} ms where they lie one deep and {most:.2g} ms two deep."
+        )
+    if scene.budget_ms is not None and max(expected.cost_ms, least) > scene.budget_ms:
         yield f"warning: the pins miss the budget of {scene.budget_ms:g} ms."
-    if expected.depth > DEEPEST:
+    if expected.sinks:
+        yield (
+            "warning: with these pins, balls that come to rest sink through walls and each other, in the end"
+            ' out of the box; contacts "event" carries them.'
+        )
+    elif expected.depth > DEEPEST:
         yield (
             f"warning: balls that weigh on each other will sink up to {expected.depth:.2g} radii into each other;"
             ' accuracy "faithful", or contacts "event", prevents it.'

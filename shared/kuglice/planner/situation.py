@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kuglice.planner.demand import LONGEST
+from kuglice.planner.resting import carried, settles
 from kuglice.scene import Scene
 from kuglice.scene.forces import Force
 from kuglice.travel import longest_travel
@@ -44,6 +45,10 @@ class Situation:
     """Until the mean ball has collided once, or LONGEST."""
     pressed: bool
     """Whether balls weigh on each other: a force drives them together, into more than half a layer."""
+    carried: bool
+    """Whether a force that lasts drives balls against walls or pegs, be they many or one."""
+    settles: bool
+    """Whether balls come to rest, there or on each other, since they lose what they bounce with."""
     fall_rate: float
     """1 / seconds of a fall from the mean height: sqrt(g / 2 h); 0 without gravity."""
     open: bool
@@ -83,6 +88,8 @@ def situation(scene: Scene) -> Situation:
         rate=rate,
         window=min(LONGEST, 1.0 / rate) if rate > 0.0 else LONGEST,
         pressed=_pressed(scene, radius),
+        carried=carried(scene),
+        settles=settles(scene),
         fall_rate=_fall_rate(scene, fall),
         open=scene.limits.spawn is not None or scene.players is not None,
     )

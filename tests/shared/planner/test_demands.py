@@ -121,7 +121,9 @@ def test_no_cheaper_model_is(name, accuracy):
     cheaper = [
         each
         for each in candidates(scene, situation(scene))
-        if each.expected.cost_ms * (1 + NOISE) < planned.cost_ms and not each.expected.tunnels
+        if each.expected.cost_ms * (1 + NOISE) < planned.cost_ms
+        # Rare and late: test_balls_at_rest_stay_in_the_box and tests/stability run these.
+        and not (each.expected.tunnels or each.expected.sinks)
     ]
     for each in cheaper:
         wrong = judge(name).error(each.model) > demanded(scene)

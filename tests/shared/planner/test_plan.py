@@ -52,13 +52,19 @@ class TestAccuracy:
 
 
 class TestCrowds:
-    def test_balls_that_weigh_on_each_other_get_event_contacts_if_faithful(self):
+    def test_elastic_balls_that_weigh_on_each_other_get_event_contacts_if_faithful(self):
         assert kg.plan(kg.scenes.rain().model_copy(update={"accuracy": "faithful"})).contacts == "event"
 
     def test_what_a_visual_crowd_does_is_said(self):
         reasons = " ".join(kg.plan(kg.scenes.rain()).reasons)
         assert "sink" in reasons
         assert '"faithful"' in reasons
+
+    def test_what_a_pile_costs_is_said_beside_what_the_start_does(self):
+        scene = kg.scenes.pegs()
+        least, most = expect(scene, kg.plan(scene)).pile_ms
+        assert 0 < least < most
+        assert any(f"{most:.2g} ms two deep" in reason for reason in kg.plan(scene).reasons)
 
 
 class TestBudget:

@@ -11,6 +11,7 @@ from kuglice.lab.calibration.contact_error import contact_error
 from kuglice.lab.calibration.cost import contact_costs, integrator_costs
 from kuglice.lab.calibration.force_drift import SCENES, force_drift
 from kuglice.lab.calibration.force_error import KINDS, force_error
+from kuglice.lab.calibration.pile_cost import LAYERS, pile_cost
 from kuglice.lab.jobs import Effort, Job
 from kuglice.lab.methods import Method
 from kuglice.lab.rows import Row, Rows
@@ -49,6 +50,7 @@ def jobs(effort: Effort, left_out: list[str]) -> list[Job]:
             Job(f"costs of {count:,} balls", partial(contact_costs, count, effort.repeats))
             for count in counts
         ),
+        *(Job(f"cost of {layers:g} layers at rest", partial(_pile, layers)) for layers in LAYERS),
         Job("costs of integrators", partial(integrator_costs, effort.repeats)),
     ]
 
@@ -94,3 +96,9 @@ def _integrator(integrator: str) -> Rows:
 def _sinking(contacts: str) -> Rows:
     depth = sinking(making(Method("verlet", contacts).model()), 0.3, SINKING_SECONDS)
     return [{"kind": "sinking", "contacts": contacts, "value": depth}]
+
+
+def _pile(layers: float) -> Rows:
+    # The others carry no pile.
+    cost = pile_cost("event", layers)
+    return [{"kind": "pile cost", "contacts": "event", "x": layers, "value": cost}]
