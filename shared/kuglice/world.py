@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kuglice import _core
 from kuglice.ball_states import BallStates, ids
-from kuglice.errors import LimitError, MissingExtraError, SnapshotError
+from kuglice.errors import LimitError, MissingExtraError, ModelError, SceneError, SnapshotError
 from kuglice.inputs import Input, pack
 from kuglice.model import Model
 from kuglice.planner import plan
@@ -145,8 +145,43 @@ class World:
         return World._wrap(self._scene, self._model, self._core.clone())
 
     def copy_from(self, other: World) -> None:
-        """Become a copy of another world of the same scene, reusing memory. Raises LentError while lent."""
+        """Become a copy of another world of the same scene and model, reusing memory.
+
+        Raises LentError while lent, ModelError for a world of another model, SceneError for one of another scene:
+        `clone` copies those.
+        """
+        if self._model is not other._model:
+            self._refuse_other_model(other)
+        if self._scene is not other._scene:
+            self._refuse_other_scene(other)
         self._core.copy_from(other._core)
+
+    def _refuse_other_model(self, other: World) -> None:
+        """What is computed must agree; the planner's sentences need not."""
+        here, there = (each._model.model_dump(exclude={"reasons"}) for each in (self, other))
+        different = [name for name in here if here[name] != there[name]]
+        if different:
+            name = different[0]
+            raise ModelError(
+                f"copy_from: {name} of the other world is {there[name]!r}, must be {here[name]!r} as here;"
+                " clone() copies a world with its model"
+            )
+
+    def _refuse_other_scene(self, other: World) -> None:
+        """Worlds of equal scenes are alike, however their balls were described."""
+        different = [
+            name
+            for name in ("box", "walls", "restitution", "tick_rate", "forces", "limits", "players", "balls")
+            if getattr(self._scene, name) != getattr(other._scene, name)
+        ]
+        if different:
+            name = different[0]
+            here, there = getattr(self._scene, name), getattr(other._scene, name)
+            told = "" if name == "balls" else f": is {there!r}, must be {here!r} as here"
+            raise SceneError(
+                f"copy_from: the scene of the other world differs in its {name}{told};"
+                " clone() copies a world with its scene"
+            )
 
     @contextmanager
     def view(self) -> Iterator[_core.Lease]:
