@@ -83,6 +83,6 @@ def _crossing(axes: Axes, rows: Rows) -> None:
         return
     axes.axvline(place, color=PALE, linestyle=":", linewidth=1.2)
     axes.annotate(
-        f"brute force is best\nup to {place:.0f} balls", (place, 0.03), xycoords=("data", "axes fraction"),
-        xytext=(8, 0), textcoords="offset points", ha="left", va="bottom", fontsize=11, color=INK,
+        f"brute force is best\nup to {place:.0f} balls", (place, 0.97), xycoords=("data", "axes fraction"),
+        xytext=(8, 0), textcoords="offset points", ha="left", va="top", fontsize=11, color=INK,
     )  # fmt: skip
