@@ -9,11 +9,13 @@ Every input has a defined answer:
 - too early (beyond `horizon` ticks), or beyond the scene's limits: refused, with the reason;
 - duplicate: never applied twice; acknowledged again if its client has heard of the tick that it acted in and asks all
   the same; older than what is remembered: refused;
+- a sequence number far ahead of the last one: refused and not taken, or all that follow would be too low;
 - impossible (a spawn where there is no room, or a tick that cannot be made with it): refused when its tick comes, by
   the tick loop, even if it was promised;
 - more than `limits.per_tick` in one tick: the rest waits for the next, in order;
 - malformed: a message that cannot be read is refused as a whole, with the reason, under no sequence number;
-- a flood: beyond MESSAGES_PER_TICK messages a tick, counted and not read; what was lost is sent again;
+- a flood: beyond MESSAGES_PER_TICK messages or INPUTS_PER_TICK inputs a tick, counted and not read; beyond
+  ANSWERS_PER_TICK answers that no tick message gives by itself, counted and not given; what was lost is sent again;
 - foreign (from nobody who is here, or from a session that does not play its name), or meant for another epoch:
   counted, not answered, since nobody would hear it.
 """
@@ -34,6 +36,12 @@ __all__ = ["Intake"]
 CLIENT_KINDS = frozenset({"spawn", "remove", "thrust", "attract", "kick"})
 MESSAGES_PER_TICK = 16
 """Messages of one client that are read per tick; what is lost is sent again until acknowledged."""
+INPUTS_PER_TICK = 64
+"""Inputs of one client that are read per tick, and those that come with the last of them."""
+ANSWERS_PER_TICK = 8
+"""To one client: everybody is told of them, and in several messages."""
+SEQUENCE_JUMP = 1024
+"""From one input of a client to its next at most; no client has as many unacknowledged."""
 MAX_ACKS = 256
 """Outcomes per tick message; a client that does not hear of one asks again."""
 SOON = 30
@@ -60,6 +68,9 @@ class Intake:
         self._scheduled: dict[int, list[Input]] = {}
         self._used: Counter[tuple[int, int]] = Counter()
         self._read: Counter[str] = Counter()
+        self._read_inputs: Counter[str] = Counter()
+        self._answered: Counter[int] = Counter()
+        self._told: set[Ack] = set()
         self._new_acks: list[Ack] = []
         self._acks: deque[tuple[int, list[Ack]]] = deque()
         self._acting: dict[int, list[Ack]] = {}
@@ -76,15 +87,16 @@ class Intake:
             self._counters.add("foreign")
             return
         self._read[name] += 1
-        if self._read[name] > MESSAGES_PER_TICK:
+        if self._read[name] > MESSAGES_PER_TICK or self._read_inputs[name] >= INPUTS_PER_TICK:
             self._counters.add("flooded")
             return
         try:
             message = decode(payload, ClientInputs)
         except ProtocolError as error:
             self._counters.add("malformed")
-            self._new_acks.append(Ack(player.number, None, None, 0, _reason(str(error))))
+            self._tell(Ack(player.number, None, None, 0, _reason(str(error))))
             return
+        self._read_inputs[name] += len(message.inputs)
         if message.epoch != self._epoch:
             self._counters.add("other_epoch")
             return
@@ -98,6 +110,7 @@ class Intake:
     def due(self, tick: int) -> list[Input]:
         """Inputs that act in `tick`, which is not asked for again."""
         self._read.clear()
+        self._read_inputs.clear()
         inputs = self._scheduled.pop(tick, [])
         for client in {one.client for one in inputs}:
             del self._used[client, tick]
@@ -118,15 +131,16 @@ class Intake:
         player.accepted -= 1
         player.refused += 1
         self._counters.add("left_out")
-        self._new_acks.append(ack)
+        self._tell(ack)
 
     def acks(self, tick: int, *, repeat: int) -> list[Ack]:
         """Outcomes to publish with `tick`: of what acts in it, new ones, and again refusals of the last `repeat`."""
         if self._new_acks:
             self._acks.append((tick, self._new_acks))
             self._new_acks = []
+            self._answered.clear()
         while self._acks and self._acks[0][0] <= tick - repeat:
-            self._acks.popleft()
+            self._told.difference_update(self._acks.popleft()[1])
         acting = self._acting.pop(tick, [])
         told = [
             ack for since, acks in self._acks for ack in acks if ack.tick is None or tick - since < PROMISES
@@ -138,6 +152,11 @@ class Intake:
         if sent.given.sequence <= player.sequence:
             self._again(player, sent.given.sequence, world.tick, early, heard=heard)
             return
+        highest = player.sequence + SEQUENCE_JUMP
+        if sent.given.sequence > highest:
+            why = f"sequence {sent.given.sequence}: at most {highest} allowed, {SEQUENCE_JUMP} after the last one"
+            self._refuse(player, sent.given.sequence, early, why)
+            return
         player.sequence = sent.given.sequence
         try:
             one = sent.given.model_copy(update={"client": player.number})
@@ -148,11 +167,7 @@ class Intake:
             check(one, self._scene, world)
             tick = self._tick_for(player, max(sent.tick, world.tick), world.tick)
         except InputError as error:
-            player.refused += 1
-            self._counters.add("refused")
-            ack = Ack(player.number, sent.given.sequence, None, early, _reason(str(error)))
-            player.remember(sent.given.sequence, ack)
-            self._new_acks.append(ack)
+            player.remember(sent.given.sequence, self._refuse(player, sent.given.sequence, early, str(error)))
             return
         self._scheduled.setdefault(tick, []).append(one)
         self._used[player.number, tick] += 1
@@ -166,7 +181,25 @@ class Intake:
         player.remember(one.sequence, ack)
         self._acting.setdefault(tick, []).append(ack)
         if tick > world.tick + SOON:
-            self._new_acks.append(ack)
+            self._tell(ack)
+
+    def _refuse(self, player: Player, sequence: int, early: int, why: str) -> Ack:
+        player.refused += 1
+        self._counters.add("refused")
+        ack = Ack(player.number, sequence, None, early, _reason(why))
+        self._tell(ack)
+        return ack
+
+    def _tell(self, ack: Ack) -> None:
+        """With the next tick message, unless those to come tell it anyway."""
+        if ack in self._told:
+            return
+        if self._answered[ack.client] >= ANSWERS_PER_TICK:
+            self._counters.add("unanswered")
+            return
+        self._answered[ack.client] += 1
+        self._told.add(ack)
+        self._new_acks.append(ack)
 
     def _tick_for(self, player: Player, tick: int, now: int) -> int:
         # Inputs of one client act in the order of their sequence numbers, so never before an earlier one.
@@ -189,8 +222,7 @@ class Intake:
         if known.tick is not None and heard <= known.tick <= now + SOON:
             # The stream tells of it, and is just on its way to the client, or about to be.
             return
-        if known not in self._new_acks and not any(known in acks for _, acks in self._acks):
-            self._new_acks.append(known)
+        self._tell(known)
 
 
 def _reason(text: str) -> str:

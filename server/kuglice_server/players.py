@@ -21,7 +21,7 @@ MAX_NAMES = 4096
 """Names remembered after their clients left; the longest gone are forgotten first."""
 REMEMBERED_OUTCOMES = 256
 
-Waiting = tuple[str, str]
+Who = tuple[str, str]
 """Name and session."""
 
 
@@ -64,8 +64,8 @@ class Players:
         self._scene = scene
         self._grace = grace
         self._by_name: OrderedDict[str, Player] = OrderedDict()
-        self._waiting: dict[Waiting, None] = {}
-        self._refused: dict[Waiting, str] = {}
+        self._waiting: dict[Who, None] = {}
+        self._refused: dict[Who, str] = {}
         self._leaves: list[Input] = []
         self._numbers = 0
         self._sequence = 0
@@ -76,6 +76,11 @@ class Players:
         return sorted(
             (player for player in self._by_name.values() if player.present), key=lambda one: one.number
         )
+
+    @property
+    def playing(self) -> list[Who]:
+        """Names and sessions of those who are here."""
+        return [(player.name, player.session) for player in self.present]
 
     @property
     def heard(self) -> list[int]:
@@ -150,7 +155,7 @@ class Players:
                     self._refused[waiting] = str(error)[:400]
         return authored
 
-    def _next_waiting(self) -> Waiting | None:
+    def _next_waiting(self) -> Who | None:
         """The first of those who need wait no longer, taken from the queue."""
         for waiting in self._waiting:
             holder = self._by_name.get(waiting[0])

@@ -30,6 +30,7 @@ from kuglice_server.counters import Counters
 from kuglice_server.description import Description
 from kuglice_server.epoch import new_epoch
 from kuglice_server.history import History
+from kuglice_server.inboxes import Inboxes
 from kuglice_server.intake import Intake
 from kuglice_server.players import Players
 from kuglice_server.publish import Publisher
@@ -83,7 +84,8 @@ class Server(Closing):
                 undo.callback(self._record.close)
             self._publisher = self._make_publisher()
             self._regions = self._make_regions()
-            self._tokens, self._inputs = self._subscribe()
+            self._tokens = self._subscribe()
+            self._inboxes = Inboxes(self._session, self._keys, counters=self.counters)
             self._loop = self._make_loop()
             self._answers = self._make_answers()
             undo.pop_all()
@@ -105,15 +107,11 @@ class Server(Closing):
             teller=self._teller,
         )
 
-    def _subscribe(self) -> tuple[Samples, Samples]:
-        """To who is there, and to what they want."""
-        tokens = self._session.liveliness().declare_subscriber(
+    def _subscribe(self) -> Samples:
+        """To who is there."""
+        return self._session.liveliness().declare_subscriber(
             self._keys.clients, zenoh.handlers.RingChannel(WAITING_MESSAGES), history=True
         )
-        inputs = self._session.declare_subscriber(
-            self._keys.inputs, zenoh.handlers.RingChannel(WAITING_MESSAGES)
-        )
-        return tokens, inputs
 
     def _make_loop(self) -> TickLoop:
         return TickLoop(
@@ -129,7 +127,7 @@ class Server(Closing):
             history=self._history,
             publisher=self._publisher,
             tokens=self._tokens,
-            inputs=self._inputs,
+            inboxes=self._inboxes,
             snapshot_every=self.cadence.snapshot_every,
             hash_every=self.cadence.hash_every,
             counters=self.counters,
@@ -223,7 +221,7 @@ class Server(Closing):
             self._record.close()
         declared: tuple[Declared, ...] = (
             self._teller,
-            self._inputs,
+            self._inboxes,
             self._tokens,
             *self._answers.declared,
             *self._publisher.declared,

@@ -18,6 +18,7 @@ from kuglice.protocol import MAX_TOLD_TICKS, Keys, StretchedTick
 from kuglice_server.attempts import Attempt, attempts
 from kuglice_server.counters import Counters
 from kuglice_server.history import History, KeptSnapshot
+from kuglice_server.inboxes import Inboxes
 from kuglice_server.intake import Intake
 from kuglice_server.players import Players
 from kuglice_server.publish import Publisher
@@ -28,6 +29,7 @@ __all__ = ["TickLoop"]
 
 log = logging.getLogger(__name__)
 
+TOKENS_PER_TICK = 256
 REPEATED_ACKS = 6
 """Tick messages that tell of a refusal."""
 
@@ -44,7 +46,7 @@ class TickLoop:
         history: History,
         publisher: Publisher,
         tokens: zenoh.Subscriber[Any],
-        inputs: zenoh.Subscriber[Any],
+        inboxes: Inboxes,
         snapshot_every: int,
         hash_every: int,
         counters: Counters,
@@ -57,7 +59,7 @@ class TickLoop:
         self._history = history
         self._publisher = publisher
         self._tokens = tokens
-        self._inputs = inputs
+        self._inboxes = inboxes
         self._snapshot_every = snapshot_every
         self._hash_every = hash_every
         self._counters = counters
@@ -75,6 +77,8 @@ class TickLoop:
             authored = self._players.authored(world)
             inputs = self._with_room(authored, self._intake.due(number))
             heard = self._players.heard
+            playing = self._players.playing
+        self._inboxes.keep(playing)
         self._keep(number)
         records = self._step(authored, inputs)
         with self._lock:
@@ -96,7 +100,11 @@ class TickLoop:
             self._history.add_fresh(KeptSnapshot(number, self._world.snapshot()))
 
     def _note_tokens(self) -> None:
-        while (sample := self._tokens.try_recv()) is not None:
+        # However many come: the rest waits for the next tick.
+        for _ in range(TOKENS_PER_TICK):
+            sample = self._tokens.try_recv()
+            if sample is None:
+                break
             try:
                 who = Keys.client_of(str(sample.key_expr))
             except ProtocolError:
@@ -108,20 +116,11 @@ class TickLoop:
                 self._players.depart(*who, self._world.tick)
 
     def _take_inputs(self) -> None:
-        while (sample := self._inputs.try_recv()) is not None:
-            data = sample.payload.to_bytes()
-            self._counters.add("messages_in")
-            self._counters.add("bytes_in", len(data))
-            if sample.kind == zenoh.SampleKind.DELETE:
-                self._say_goodbye(str(sample.key_expr))
+        for key, payload in self._inboxes.take():
+            if payload is None:
+                self._players.leave(*Keys.client_of(key))
             else:
-                self._intake.receive(str(sample.key_expr), data, world=self._world)
-
-    def _say_goodbye(self, key: str) -> None:
-        try:
-            self._players.leave(*Keys.client_of(key))
-        except ProtocolError:
-            self._counters.add("foreign")
+                self._intake.receive(key, payload, world=self._world)
 
     def _with_room(self, authored: list[Input], inputs: list[Input]) -> list[Input]:
         inputs = _ordered(inputs)

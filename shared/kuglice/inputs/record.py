@@ -56,13 +56,20 @@ def _record(given: Input) -> bytes:
     kind = given.kind
     ball = getattr(given, "ball", None)
     numbers = (*(getattr(given, name) for name in NUMBERS[kind]), *PADDING)[:6]
-    return RECORD.pack(
-        _core.INPUT_KINDS.index(kind),
-        given.client,
-        given.sequence,
-        _core.NO_BALL if ball is None else ball,
-        *numbers,
-    )
+    try:
+        return RECORD.pack(
+            _core.INPUT_KINDS.index(kind),
+            given.client,
+            given.sequence,
+            _core.NO_BALL if ball is None else ball,
+            *numbers,
+        )
+    except struct.error as error:
+        # A copy with other numbers is not validated by itself.
+        raise InputError(
+            f"{kind} {given.sequence} of client {given.client}: client must be below 2**32, sequence and ball below "
+            f"2**64: {error}"
+        ) from None
 
 
 def _input(index: int, code: int, client: int, sequence: int, ball: int, *numbers: float) -> Input:
