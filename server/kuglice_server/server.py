@@ -13,6 +13,7 @@ import zenoh
 
 from kuglice import Scene, World
 from kuglice.closing import Closing
+from kuglice.inputs import Input
 from kuglice.protocol import (
     About,
     Declared,
@@ -32,6 +33,7 @@ from kuglice_server.epoch import new_epoch
 from kuglice_server.history import History
 from kuglice_server.inboxes import Inboxes
 from kuglice_server.intake import Intake
+from kuglice_server.owner import Owner
 from kuglice_server.players import Players
 from kuglice_server.publish import Publisher
 from kuglice_server.record import Record
@@ -61,6 +63,7 @@ class Server(Closing):
         self.counters = Counters()
         self._keys = Keys(settings.world)
         self._lock = threading.Lock()
+        self._owner = Owner(self.world, self.counters)
         self._players = Players(scene, grace=self.cadence.grace)
         self._history = History(span=self.cadence.history)
         self._schedule = Schedule(self.cadence.rate)
@@ -116,6 +119,7 @@ class Server(Closing):
     def _make_loop(self) -> TickLoop:
         return TickLoop(
             self.world,
+            owner=self._owner,
             players=self._players,
             intake=Intake(
                 self.world.scene,
@@ -148,6 +152,17 @@ class Server(Closing):
             history=self._history,
         )
 
+    def act(self, given: Input) -> Input:
+        """Let the world's owner do something in the next tick: spawn, remove, kick or attract, as rules of a game do.
+
+        The owner (client 0) is held to what is possible, not to the scene's limits. Its place is `each_tick` of `run`,
+        where the world stands still to be looked at. Returns the input as it will act.
+
+        Raises InputError for what is impossible now. What turns out so in its tick only (a spawn where a ball has
+        moved to) is left out, logged and counted.
+        """
+        return self._owner.act(given)
+
     def run(
         self,
         stop: threading.Event,
@@ -158,7 +173,8 @@ class Server(Closing):
     ) -> None:
         """Tick until `stop`, for that many seconds of the schedule, or until the last client has left.
 
-        A slow-down is logged, once per second at most.
+        `each_tick` is called between two ticks, to look at the world and to `act`; what it takes, the ticks wait for.
+        A slow-down is logged, once per second at most. Raises StepError if anybody else steps the world.
         """
         self._schedule = Schedule(self.cadence.rate)
         ticks = None if seconds is None else round(seconds * self.cadence.rate)

@@ -13,13 +13,14 @@ import zenoh
 
 from kuglice import World
 from kuglice.errors import InputError, ProtocolError, StepError
-from kuglice.inputs import Input, pack
+from kuglice.inputs import OWNER, Input, pack
 from kuglice.protocol import MAX_TOLD_TICKS, Keys, StretchedTick
 from kuglice_server.attempts import Attempt, attempts
 from kuglice_server.counters import Counters
 from kuglice_server.history import History, KeptSnapshot
 from kuglice_server.inboxes import Inboxes
 from kuglice_server.intake import Intake
+from kuglice_server.owner import Owner
 from kuglice_server.players import Players
 from kuglice_server.publish import Publisher
 from kuglice_server.record import Record
@@ -41,6 +42,7 @@ class TickLoop:
         self,
         world: World,
         *,
+        owner: Owner,
         players: Players,
         intake: Intake,
         history: History,
@@ -54,6 +56,8 @@ class TickLoop:
         record: Record | None,
     ) -> None:
         self._world = world
+        self._next = world.tick
+        self._owner = owner
         self._players = players
         self._intake = intake
         self._history = history
@@ -69,18 +73,19 @@ class TickLoop:
     def tick(self) -> None:
         """Run the next tick and publish it."""
         world = self._world
-        number = world.tick
+        number = self._expected()
         with self._lock:
             # Inputs first: a goodbye is among them, and comes before the token that vanishes with it.
             self._take_inputs()
             self._note_tokens()
             authored = self._players.authored(world)
-            inputs = self._with_room(authored, self._intake.due(number))
+            inputs = self._with_room(authored, self._owner.due() + self._intake.due(number))
             heard = self._players.heard
             playing = self._players.playing
         self._inboxes.keep(playing)
         self._keep(number)
         records = self._step(authored, inputs)
+        self._next = world.tick
         with self._lock:
             acks = self._intake.acks(number, repeat=REPEATED_ACKS)
         hashed = world.tick % self._hash_every == 0
@@ -89,6 +94,15 @@ class TickLoop:
         self._guarded(partial(self._publisher.tick, self._history.recent(MAX_TOLD_TICKS), acks, heard))
         if self._record is not None:
             self._record.add(entry)
+
+    def _expected(self) -> int:
+        """The tick to make. A world that somebody else has stepped has ticks that no client will ever hear of."""
+        if self._world.tick != self._next:
+            raise StepError(
+                f"the world is at tick {self._world.tick} instead of {self._next}: only its server may step it; "
+                "rules of a game act by Server.act"
+            )
+        return self._next
 
     def _keep(self, number: int) -> None:
         asked_for = self._history.wants_fresh()
@@ -126,7 +140,7 @@ class TickLoop:
         inputs = _ordered(inputs)
         refused = without_room(self._world, authored, inputs)
         for spawn, why in refused:
-            self._intake.left_out(self._world.tick, spawn, why)
+            self._leave_out(self._world.tick, spawn, why)
         return [one for one in inputs if not any(one is spawn for spawn, _ in refused)]
 
     def _step(self, authored: list[Input], inputs: list[Input]) -> bytes:
@@ -155,9 +169,15 @@ class TickLoop:
         extra = Counter(one.kind for one in made.inputs if not any(one is other for other in authored))
         with self._lock:
             for one in inputs:
-                self._intake.left_out(tick, one, f"left out: {failed}")
+                self._leave_out(tick, one, f"left out: {failed}")
             self._counters.add("removed", extra.pop("remove", 0))
             self._counters.add("released", extra.total())
+
+    def _leave_out(self, tick: int, one: Input, why: str) -> None:
+        if one.client == OWNER:
+            self._owner.left_out(one, why)
+        else:
+            self._intake.left_out(tick, one, why)
 
     def _guarded(self, publish: Callable[[], None]) -> None:
         try:
