@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from kuglice.inputs import Input
-from kuglice_client.bots import BOTS, Sight
+from kuglice_client.bots import BOTS, Bot, Sight
 
 __all__ = ["Autopilot"]
 
@@ -12,10 +12,10 @@ SECONDS = 1 / 15
 
 
 class Autopilot:
-    """`bot`: an entry of BOTS. `rate`: ticks per second."""
+    """`bot`: an entry of BOTS, or a function like them. `rate`: ticks per second."""
 
-    def __init__(self, bot: str, *, rate: float) -> None:
-        self._think = BOTS[bot]
+    def __init__(self, bot: str | Bot, *, rate: float) -> None:
+        self._think = BOTS[bot] if isinstance(bot, str) else bot
         self._every = max(1, round(SECONDS * rate))
         self._next = 0
         self._said: Input | None = None

@@ -18,6 +18,7 @@ from kuglice.protocol import Keys
 from kuglice.study.recorder import StudyRecorder
 from kuglice_client.join import Joined, find_world, join
 from kuglice_client.link import DatagramWatch, Link, Renewal, Waiting
+from kuglice_client.outbox import Outcome
 from kuglice_client.pace import judge_pace, step_seconds
 from kuglice_client.prediction import Floats, Ids
 from kuglice_client.replica import Replica
@@ -50,7 +51,7 @@ class Client(Closing):
         self.settings = settings
         self.stop = stop if stop is not None else threading.Event()
         self.totals = Totals()
-        self.screen = Screen()
+        self.screen = Screen(seconds=settings.correction_seconds, limit=settings.correction_limit)
         self._study: StudyRecorder | None = None
         self._other_epochs: set[int] = set()
         # Tells us from another who takes the same name; whoever is cut off and comes back is the same still.
@@ -85,16 +86,24 @@ class Client(Closing):
         """Id of one's own ball, once it exists."""
         return None if self.replica.player is None else self.replica.player.ball
 
-    def act(self, given: Input) -> None:
-        """Do something at the next tick that is predicted, or `input_delay` ticks later.
+    def act(self, given: Input) -> Input:
+        """Do something at the next tick that is predicted, or `input_delay` ticks later. It is seen at once.
 
-        Client and sequence number are filled in here.
+        Returns it with the client and sequence number that are filled in here. Whether the server takes it
+        shows a round trip later in `outcomes`; one that it refuses is taken back from the prediction.
 
         Raises JoinError for a spectator, and when too much is unacknowledged to add more.
         """
         if self.replica.player is None:
             raise JoinError("a spectator cannot act: join with a name")
-        self.replica.player.act(given, time.monotonic())
+        return self.replica.player.act(given, time.monotonic())
+
+    def outcomes(self) -> list[Outcome]:
+        """What became of own inputs, as far as was told since the last call: the last 256 at the most.
+
+        A server that restarts tells nothing of what was sent to it before.
+        """
+        return [] if self.replica.player is None else self.replica.player.outcomes()
 
     def turn(self, now: float) -> float:
         """Take in what came, predict up to now, send. `frame` is to be called for each frame that is drawn of it.

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from kuglice.errors import LimitError
 
-__all__ = ["Correction"]
+__all__ = ["LIMIT_RADII", "SECONDS", "Correction"]
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.uint64]

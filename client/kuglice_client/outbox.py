@@ -12,13 +12,21 @@ from typing import NamedTuple
 from kuglice.inputs import Input
 from kuglice.protocol import MAX_INPUTS, Ack, ClientInputs, SentInput
 
-__all__ = ["Outbox", "Pending"]
+__all__ = ["Outbox", "Outcome", "Pending"]
 
 MAX_PENDING = 256
 COPIES = 3
 """Messages in a row that carry a new input."""
 REPORT_SECONDS = 0.1
 """After this long without anything else to say, the server is told what was heard of its stream."""
+
+
+class Outcome(NamedTuple):
+    """What became of an input: the tick in which it acted, or why it was refused."""
+
+    given: Input
+    tick: int | None
+    refused: str | None
 
 
 class Pending(NamedTuple):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import math
 import time
+from collections import deque
 from collections.abc import Iterable
 
 from kuglice.errors import JoinError
@@ -16,7 +17,7 @@ from kuglice_client.bots import Sight
 from kuglice_client.clock import Clock
 from kuglice_client.feel import Feel
 from kuglice_client.join import Joined
-from kuglice_client.outbox import Outbox
+from kuglice_client.outbox import MAX_PENDING, Outbox, Outcome
 from kuglice_client.prediction import Prediction
 from kuglice_client.settings import ClientSettings
 
@@ -48,6 +49,7 @@ class Player:
         self._feel = feel
         self._study = study
         self._autopilot = None if settings.bot is None else Autopilot(settings.bot, rate=rate)
+        self._outcomes: deque[Outcome] = deque(maxlen=MAX_PENDING)
         self.outbox = Outbox(
             epoch=joined.epoch,
             number=number,
@@ -61,7 +63,7 @@ class Player:
         """Id of one's own ball, once it exists."""
         return dict(self._prediction.shown[1].players).get(self.outbox.number)
 
-    def act(self, given: Input, now: float) -> None:
+    def act(self, given: Input, now: float) -> Input:
         """As `Client.act`. Raises JoinError when too much is unacknowledged to add more."""
         if self.outbox.full:
             raise JoinError("too many inputs are unacknowledged: the server does not answer")
@@ -73,6 +75,13 @@ class Player:
         if self._study is not None:
             self._study.acted(now, mine, tick)
         self._feel.acted(mine.sequence, tick, now)
+        return mine
+
+    def outcomes(self) -> list[Outcome]:
+        """As `Client.outcomes`."""
+        told = list(self._outcomes)
+        self._outcomes.clear()
+        return told
 
     def let_bot_act(self, now: float) -> None:
         """If one plays, and wants something new."""
@@ -92,6 +101,7 @@ class Player:
             pending = self.outbox.resolve(ack)
             if pending is None:
                 continue
+            self._outcomes.append(Outcome(pending.given, ack.tick, ack.refused))
             self._prediction.settle(pending.given, pending.tick, ack.tick)
             early = pending.early(ack)
             if self._study is not None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from kuglice_client.correction import Correction
+from kuglice_client.correction import LIMIT_RADII, SECONDS, Correction
 from kuglice_client.feel import Feel
 from kuglice_client.prediction import Drawn, Prediction
 
@@ -16,10 +16,13 @@ Ids = NDArray[np.uint64]
 
 
 class Screen:
-    """Counts what is seen, `correction` and `feel`, and moves nothing but the picture."""
+    """Counts what is seen, `correction` and `feel`, and moves nothing but the picture.
 
-    def __init__(self) -> None:
-        self.correction = Correction()
+    `seconds`, `limit`: of Correction.
+    """
+
+    def __init__(self, *, seconds: float = SECONDS, limit: float = LIMIT_RADII) -> None:
+        self.correction = Correction(seconds=seconds, limit=limit)
         self.feel = Feel()
         self.alpha = 0.0
         self._frame_at: float | None = None
