@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from e2e.processes import free_endpoint
-from kuglice import Scene
+from kuglice import Scene, scenes
 from kuglice_client import Client
 
 README = Path(__file__).parents[2] / "README.md"
@@ -54,11 +54,11 @@ def test_a_game_with_rules_is_played(capsys):
     player = changed(player, "    seen =", "    look(client)\n    seen =")
     served: dict[str, Any] = {"stop": threading.Event()}
     played: dict[str, Any] = {}
+    first = len(scenes.arena().balls)
 
     def look(client: Client) -> None:
-        first = client.confirmed.scene.balls
         played["accepted"] = client.summary()["inputs_accepted"]
-        played["gone"] = len(first) - int((client.confirmed.id < len(first)).sum())
+        played["gone"] = first - int((client.confirmed.id < first).sum())
         if played["accepted"] and played["gone"]:
             client.stop.set()
 
