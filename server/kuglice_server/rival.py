@@ -14,7 +14,7 @@ __all__ = ["refuse_rival"]
 
 LINK_SECONDS = 1.0
 """For a link to come up. One that listens does not wait for those whom it connects to."""
-ANSWER_SECONDS = 2.0
+ANSWER_SECONDS = 4.0
 """One that has just died is asked in vain for as long as its router takes it to be alive."""
 POLL_SECONDS = 0.02
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from kuglice.aside import under_way
-from kuglice.cli.interrupt import INTERRUPTED, ended_by_interrupt
+from kuglice.cli.interrupt import INTERRUPTED, end_on_interrupt, ended_by_interrupt
 from kuglice.errors import KugliceError
 
 __all__ = ["main"]
@@ -29,8 +29,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     try:
         _run(arguments)
     except SystemExit as end:
-        if arguments is None and under_way():
-            _leave(end)
+        if arguments is None:
+            if under_way():
+                _leave(end)
+            end_on_interrupt()
         raise
 
 

@@ -1,4 +1,4 @@
-"""Ctrl-C while modules are imported: the process ends, and says nothing."""
+"""Ctrl-C while modules are imported, and while a process that is done is taken down: it ends, and says nothing."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-__all__ = ["INTERRUPTED", "ended_by_interrupt"]
+__all__ = ["INTERRUPTED", "end_on_interrupt", "ended_by_interrupt"]
 
 INTERRUPTED = 130
 """Exit code after Ctrl-C: what shells say for SIGINT."""
@@ -20,9 +20,7 @@ def ended_by_interrupt() -> Iterator[None]:
 
     Nothing is open by then that would have to be closed.
     """
-    in_main_thread = threading.current_thread() is threading.main_thread()
-    if not in_main_thread or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
-        # No KeyboardInterrupt will come: to another thread, or where SIGINT is ignored, or heeded by somebody else.
+    if not _interrupts():
         yield
         return
     signal.signal(signal.SIGINT, lambda *_: os._exit(INTERRUPTED))
@@ -30,3 +28,15 @@ def ended_by_interrupt() -> Iterator[None]:
         yield
     finally:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def end_on_interrupt() -> None:
+    """For the end of a process, where a KeyboardInterrupt would come in the midst of what tidies up, and be shown."""
+    if _interrupts():
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+def _interrupts() -> bool:
+    """Whether a KeyboardInterrupt may come: not in another thread, nor where SIGINT is ignored, or is heeded."""
+    in_main_thread = threading.current_thread() is threading.main_thread()
+    return in_main_thread and signal.getsignal(signal.SIGINT) is signal.default_int_handler

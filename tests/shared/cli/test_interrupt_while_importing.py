@@ -62,3 +62,11 @@ print(within is signal.{handler}, signal.getsignal(signal.SIGINT) is signal.{han
 """
     taken = subprocess.check_output([sys.executable, "-c", code], text=True, timeout=60)
     assert taken == f"{handler != 'default_int_handler'} True\n"
+
+
+def test_an_interrupt_while_a_process_that_is_done_is_taken_down_is_not_shown():
+    last = "import atexit, os, signal; atexit.register(lambda: os.kill(os.getpid(), signal.SIGINT));"
+    process = command("--version", before=last)
+    _, said = process.communicate(timeout=60)
+    assert said == ""
+    assert process.returncode == -signal.SIGINT
