@@ -10,19 +10,20 @@ import pytest
 
 COMMAND = """
 import time
-from kuglice.cli.stop import stop_on_signals
+from kuglice.cli import stop as room
 
-stop = stop_on_signals()
+room.ECHO_SECONDS = {echo}
+stop = room.stop_on_signals()
 print("ready", flush=True)
-stop.wait(20)
+stop.wait(60)
 print("stopping", flush=True)
 time.sleep({finishing})
 print("finished", flush=True)
 """
 
 
-def run(finishing: float) -> subprocess.Popen[str]:
-    words = [sys.executable, "-c", COMMAND.format(finishing=finishing)]
+def run(*, finishing: float, echo: float) -> subprocess.Popen[str]:
+    words = [sys.executable, "-c", COMMAND.format(finishing=finishing, echo=echo)]
     process = subprocess.Popen(words, stdout=subprocess.PIPE, text=True)
     assert process.stdout is not None
     assert process.stdout.readline() == "ready\n"
@@ -31,16 +32,16 @@ def run(finishing: float) -> subprocess.Popen[str]:
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_that_comes_twice_at_once_lets_the_command_finish(number):
-    process = run(finishing=0.3)
+    process = run(finishing=0.3, echo=3600.0)
     process.send_signal(number)
     assert process.stdout.readline() == "stopping\n"
     process.send_signal(number)
-    assert process.communicate(timeout=20)[0] == "finished\n"
+    assert process.communicate(timeout=60)[0] == "finished\n"
     assert process.returncode == 0
 
 
 def test_one_who_does_not_finish_is_ended_by_a_later_signal():
-    process = run(finishing=20.0)
+    process = run(finishing=60.0, echo=0.5)
     process.send_signal(signal.SIGTERM)
     assert process.stdout.readline() == "stopping\n"
     for _ in range(40):
@@ -50,5 +51,5 @@ def test_one_who_does_not_finish_is_ended_by_a_later_signal():
             break
         except subprocess.TimeoutExpired:
             continue
-    process.communicate(timeout=20)
+    process.communicate(timeout=60)
     assert process.returncode == -signal.SIGTERM

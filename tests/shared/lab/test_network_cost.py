@@ -30,7 +30,11 @@ def test_each_game_and_each_view_is_one_job():
 def test_views_that_are_told_more_often_take_more_and_predict_better(measured):
     seldom, often = (row for row in measured if row["varied"] == "region_rate")
     assert (seldom["region_rate"], often["region_rate"]) == (2.0, 20.0)
-    assert often["view_bytes_per_second"] > 5 * seldom["view_bytes_per_second"]
+    # Per tick: on a busy machine the two may have been served at other rates.
+    often_bytes, seldom_bytes = (
+        row["view_bytes_per_second"] / row["ticks_per_second"] for row in (often, seldom)
+    )
+    assert often_bytes > 5 * seldom_bytes
     assert often["prediction_error_mean_radii"] < seldom["prediction_error_mean_radii"]
 
 

@@ -32,7 +32,7 @@ LADDER = (8, 32, 64, 128, 192, 256, 320, 384, 512)
 ROUTERS = (0, 1, 2)
 SETTLE_SECONDS = 2.0
 """At most: no longer than a rung is measured."""
-START_SECONDS = 20.0
+START_SECONDS = 60.0
 
 
 @dataclass

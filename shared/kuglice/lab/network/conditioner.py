@@ -19,7 +19,7 @@ from kuglice.processes import free_port
 __all__ = ["LINKS", "Conditioner", "ProxyLink", "TunnelLink", "open_link"]
 
 LINKS = ("auto", "tunnel", "proxy")
-ANSWER_SECONDS = 10.0
+ANSWER_SECONDS = 60.0
 END_SECONDS = 5.0
 TUNNEL_PORT = 7447
 

@@ -19,7 +19,7 @@ from kuglice.world import World
 
 __all__ = ["Game", "Outcome"]
 
-START_SECONDS = 20.0
+START_SECONDS = 60.0
 JOIN_SECONDS = 60.0
 END_SECONDS = 20.0
 POLL_SECONDS = 0.02

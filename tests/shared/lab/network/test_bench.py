@@ -7,13 +7,17 @@ import json
 import pytest
 
 from kuglice.cli import main
+from kuglice.lab.network import cell
 from kuglice.lab.network.conditions import Conditions
 from kuglice.lab.network.table import cells
 from kuglice.lab.rows import read_csv
 
 
-def test_cells_are_played_cut_and_judged(tmp_path, capfd):
-    words = ["bench", "network", "--quick", "--link", "proxy", "--seconds", "1", "--json"]
+def test_cells_are_played_cut_and_judged(tmp_path, capfd, monkeypatch):
+    # How soon who was cut off recovers is not asked here.
+    monkeypatch.setattr(cell, "CUT_SECONDS", 2.0)
+    monkeypatch.setattr(cell, "AFTER_CUT_SECONDS", 3.0)
+    words = ["bench", "network", "--quick", "--link", "proxy", "--seconds", "2", "--json"]
     with pytest.raises(SystemExit) as end:
         main([*words, "--scene", "one acts", "--out", str(tmp_path)])
     assert not end.value.code
