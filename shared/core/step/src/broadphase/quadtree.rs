@@ -4,72 +4,12 @@
 //! node it has reached; one that sticks out of the root stays in the root's list. Leaves stop at a smallest size.
 //! Discs that moved into another node are removed and inserted; the rest of the tree stays.
 
+use super::rectangle::Rectangle;
 use super::{Broadphase, Discs, Pair, Part, Settings, slack};
 use crate::{Team, Vec2};
 
 const NONE: u32 = u32::MAX;
 const MAX_DEPTH: u32 = 24;
-
-#[derive(Clone, Copy)]
-struct Rectangle {
-    left: f64,
-    bottom: f64,
-    right: f64,
-    top: f64,
-}
-
-impl Rectangle {
-    fn around(center: Vec2, reach: f64) -> Rectangle {
-        Rectangle {
-            left: center.x - reach,
-            bottom: center.y - reach,
-            right: center.x + reach,
-            top: center.y + reach,
-        }
-    }
-
-    fn contains(&self, other: &Rectangle) -> bool {
-        self.left <= other.left
-            && other.right <= self.right
-            && self.bottom <= other.bottom
-            && other.top <= self.top
-    }
-
-    fn touches(&self, other: &Rectangle) -> bool {
-        self.left <= other.right
-            && other.left <= self.right
-            && self.bottom <= other.top
-            && other.bottom <= self.top
-    }
-
-    /// Lower left, lower right, upper left, upper right.
-    fn quarters(&self) -> [Rectangle; 4] {
-        let x = 0.5 * (self.left + self.right);
-        let y = 0.5 * (self.bottom + self.top);
-        [
-            Rectangle {
-                right: x,
-                top: y,
-                ..*self
-            },
-            Rectangle {
-                left: x,
-                top: y,
-                ..*self
-            },
-            Rectangle {
-                right: x,
-                bottom: y,
-                ..*self
-            },
-            Rectangle {
-                left: x,
-                bottom: y,
-                ..*self
-            },
-        ]
-    }
-}
 
 struct Node {
     rectangle: Rectangle,

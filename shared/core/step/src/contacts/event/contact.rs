@@ -14,12 +14,10 @@
 //! Between kicks a third case appears: a ball whose path leads into the contact while the ball itself leaves it. It
 //! would be back within the substep; it is held there, and gets its velocity back at the end.
 
-use super::paths::{Motion, Paths};
-use super::piece::{mass, radius};
-use super::rest::Support;
-use crate::contacts::exchange::{Shares, normal, transfer};
+use super::paths::Motion;
+use crate::Vec2;
+use crate::contacts::exchange::{Shares, transfer};
 use crate::walls::Wall;
-use crate::{Balls, Vec2};
 
 /// Contact time, as a part of the substep.
 const CONTACT_TIME: f64 = 1.0 / 1024.0;
@@ -30,7 +28,7 @@ pub(super) const ROUNDING: f64 = 1e-9;
 
 /// The law of contact of one substep.
 pub(super) struct Law {
-    motion: Motion,
+    pub(super) motion: Motion,
     restitution: f64,
     length: f64,
 }
@@ -204,89 +202,5 @@ impl Law {
             velocities: wall.with_normal(ball.velocity, away),
             hit: approach > 0.0,
         })
-    }
-
-    /// A ball on its path, at that place and time.
-    fn body(&self, paths: &Paths, balls: &Balls, index: usize, path: Vec2, time: f64) -> Body {
-        Body {
-            velocity: path + paths.ahead(index, time),
-            acceleration: if self.motion == Motion::Straight {
-                Vec2::ZERO
-            } else {
-                paths.acceleration[index]
-            },
-            gain: paths.gain(index),
-            radius: radius(balls, index),
-            mass: mass(balls, index),
-            again: self.is_again(paths.hits[index], paths.since[index], time),
-        }
-    }
-
-    /// Two balls meet. True if an impulse passes between them; `changed` gets the balls that have new paths.
-    pub(super) fn pair(
-        &self,
-        paths: &mut Paths,
-        balls: &mut Balls,
-        (first, second): (usize, usize),
-        time: f64,
-        changed: &mut Vec<usize>,
-    ) -> bool {
-        let (p1, path1) = paths.piece(balls, first).at(self.motion, time);
-        let (p2, path2) = paths.piece(balls, second).at(self.motion, time);
-        let along = normal(p1, p2);
-        let support = Support::new(first, Some(second), along * (1.0 / along.length()));
-        if paths.supports.hold(&support) {
-            return false;
-        }
-        let bodies = [
-            self.body(paths, balls, first, path1, time),
-            self.body(paths, balls, second, path2, time),
-        ];
-        let Some(outcome) = self.of_pair(along, &bodies[0], &bodies[1]) else {
-            return false;
-        };
-        let [w1, w2] = outcome.velocities;
-        if outcome.fate == Fate::Hold {
-            paths.deferred.push((first, bodies[0].velocity - w1));
-            paths.deferred.push((second, bodies[1].velocity - w2));
-        }
-        let struck = [(first, p1, w1), (second, p2, w2)];
-        let bears = !matches!(outcome.fate, Fate::Bounce(_));
-        paths.strike(balls, time, &struck, bears.then_some(support), changed);
-        outcome.hit
-    }
-
-    /// A ball meets a wall; the rest is as for a pair.
-    pub(super) fn wall(
-        &self,
-        paths: &mut Paths,
-        balls: &mut Balls,
-        index: usize,
-        wall: &Wall,
-        time: f64,
-        changed: &mut Vec<usize>,
-    ) -> bool {
-        let support = Support::new(index, None, -wall.inward);
-        if paths.supports.hold(&support) {
-            return false;
-        }
-        let (place, path) = paths.piece(balls, index).at(self.motion, time);
-        let body = self.body(paths, balls, index, path, time);
-        let Some(outcome) = self.of_wall(wall, &body, paths.is_alone(index)) else {
-            return false;
-        };
-        let after = outcome.velocities;
-        if outcome.fate == Fate::Hold {
-            paths.deferred.push((index, body.velocity - after));
-        }
-        let bears = !matches!(outcome.fate, Fate::Bounce(_));
-        paths.strike(
-            balls,
-            time,
-            &[(index, place, after)],
-            bears.then_some(support),
-            changed,
-        );
-        outcome.hit
     }
 }

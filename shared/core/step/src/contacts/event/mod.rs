@@ -10,6 +10,7 @@
 //! rest and collapse below restitution 1: see [`contact`].
 
 mod budget;
+mod collide;
 mod contact;
 mod first;
 mod groups;
@@ -19,6 +20,7 @@ mod predict;
 mod queue;
 mod rest;
 mod sequence;
+mod strike;
 mod sweep;
 #[cfg(test)]
 mod tests;
