@@ -4,12 +4,14 @@
 //!
 //! - *Rest.* No approach, but an acceleration into the contact: the contact bears it until the substep ends. So does
 //!   an approach no faster than a fall through a millionth of a millionth of the radius would give, which is rounding.
-//! - *Collapse* below restitution 1. No impact takes a rebound below the speed that the balls' own acceleration gains
-//!   in a substep, and slower ones lose nothing: real ones, too, lose less the slower they are (Brilliantov et al. 1996,
-//!   doi 10.1103/PhysRevE.53.5382). Nor does a ball lose anything that is hit again within 1/1024 of the substep of
-//!   its last hit (the contact time of Luding & McNamara 1998, doi 10.1007/s100350050017). A ball that touches no
-//!   other and would leave a wall for less than a substep comes to rest on it. Piles so keep a jitter too small to
-//!   see; they would need endless collisions to lose it.
+//! - *Collapse* below restitution 1. An impact slower than the speed that the balls' own acceleration gains in a
+//!   substep loses nothing, so that restitution jumps to 1 there, at a speed that depends on the length of the substep;
+//!   there is no such speed without an acceleration. Real impacts, too, lose less the slower they are, but gradually
+//!   (Brilliantov et al. 1996, doi 10.1103/PhysRevE.53.5382). Nor does a ball lose anything that is hit again within
+//!   1/1024 of the substep of its last hit, the contact time of Luding & McNamara 1998 (doi 10.1007/s100350050017),
+//!   which ends collapses that no acceleration drives. A ball that touches no other and would leave a wall for less
+//!   than a substep comes to rest on it. Piles so keep a jitter too small to see; they would need endless collisions
+//!   to lose it.
 //!
 //! Between kicks a third case appears: a ball whose path leads into the contact while the ball itself leaves it. It
 //! would be back within the substep; it is held there, and gets its velocity back at the end.
@@ -62,7 +64,7 @@ struct Meeting {
     pressing: f64,
     /// Radius of the smaller ball.
     radius: f64,
-    /// No impact takes the rebound below this speed.
+    /// Impacts below this speed lose nothing.
     slow: f64,
     /// A ball was hit within the contact time.
     again: bool,
