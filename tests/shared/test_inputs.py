@@ -214,7 +214,8 @@ def crowd(blocking, **rules):
     balls = kg.Balls(position=blocking, radius=1, mass=1)
     players = SCENE.players.model_copy(update=rules)
     limits = SCENE.limits.model_copy(update={"max_balls": len(blocking) + 1})
-    return kg.World(SCENE.model_copy(update={"balls": balls, "players": players, "limits": limits}))
+    changes = {"balls": balls, "players": players, "limits": limits, "allow_overlap": True}
+    return kg.World(SCENE.model_copy(update=changes))
 
 
 @given(st.lists(st.tuples(st.floats(1, 19), st.floats(1, 9)), max_size=6))
@@ -298,6 +299,6 @@ def test_a_spawn_is_not_rounded():
 def test_what_two_bytes_cannot_hold_stays_exact():
     far = kg.Thrust(x=1e9, y=-1e9)
     assert inputs.rounded(far, SCENE) == far
-    narrow = SCENE.model_copy(update={"box": (1000.01, 1000.01, 1000.02, 1000.02)})
+    narrow = kg.Scene(box=(1000.01, 1000.01, 1000.02, 1000.02))
     point = kg.Attract(x=1000.01, y=1000.02, strength=1.0)
     assert inputs.rounded(point, narrow) == point

@@ -77,6 +77,26 @@ class Scene(BaseModel):
         check_start(self)
         return self
 
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """A scene that differs in some keys, validated like any other. Raises SceneError.
+
+        Groups are placed again if they or the box differ. Balls that are given replace groups.
+        """
+        if not update:
+            return super().model_copy(deep=deep)
+        given = {name: getattr(self, name) for name in type(self).model_fields} | dict(update)
+        groups = given.pop("groups")
+        if "balls" in update and "groups" not in update:
+            groups = ()
+        if groups and not {"groups", "box"}.isdisjoint(update):
+            if "balls" not in update:
+                del given["balls"]
+            return type(self)(**given, groups=groups)
+        # To place them again would find the same balls.
+        copy = type(self)(**given)
+        object.__setattr__(copy, "groups", groups)
+        return copy
+
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Scene:
         """Read a TOML file. Raises SceneError, also when the file cannot be read."""
