@@ -14,6 +14,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 from kuglice.cli.figures import print_figures
 from kuglice.cli.logs import STDERR
+from kuglice.cli.pins import Broadphase, Contacts, Integrator, Substeps, pinned
 from kuglice.cli.stop import stop_on_signals
 from kuglice.cli.threads import Threads
 from kuglice.cli.writable import writable
@@ -43,6 +44,10 @@ def render(  # noqa: PLR0917 - options
     ],
     seconds: Annotated[float, typer.Option(help="How much of the scene, in its own time.")] = 10.0,
     threads: Threads = 1,
+    integrator: Integrator = None,
+    contacts: Contacts = None,
+    substeps: Substeps = None,
+    broadphase: Broadphase = None,
     fps: Annotated[float, typer.Option(help="Frames per second.")] = 30.0,
     speed: Annotated[float, typer.Option(help="Seconds of the scene per second of the film.")] = 1.0,
     style: Annotated[str, typer.Option(help=f"How balls look: {', '.join(STYLES)}.")] = "discs",
@@ -60,13 +65,18 @@ def render(  # noqa: PLR0917 - options
 
     It runs without inputs. The first interrupt ends the film early, and finishes its file.
 
-    kuglice render dam --style fluid --out dam.mp4
+    kuglice render dam:n=2000 --style fluid --out dam.mp4
+
+    kuglice render mine.toml --contacts overlap --out overlap.mp4
 
     kuglice render break --trails 0.4 --speed 0.25 --size 1920x1080 --out break.webm
     """
     if not 0 <= seconds <= 86_400:
         raise PictureError(f"seconds {seconds}: must be within 0 and 86400")
-    world = World(find(scene), threads=threads)
+    chosen = pinned(
+        find(scene), integrator=integrator, contacts=contacts, substeps=substeps, broadphase=broadphase
+    )
+    world = World(chosen, threads=threads)
     ticks = round(seconds * world.scene.tick_rate)
     stop = stop_on_signals()
     started = time.monotonic()
@@ -86,6 +96,7 @@ def render(  # noqa: PLR0917 - options
         "frames": frames,
         "ticks": world.tick,
         "balls": world.count,
+        "model": str(world.model),
         "state_hash": f"{world.state_hash:016x}",
         "seconds_taken": time.monotonic() - started,
     }

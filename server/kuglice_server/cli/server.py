@@ -14,6 +14,7 @@ from rich.status import Status
 from kuglice import scenes
 from kuglice.cli.figures import print_figures
 from kuglice.cli.logs import STDERR, log_to_stderr
+from kuglice.cli.pins import Broadphase, Contacts, Integrator, Substeps, pinned
 from kuglice.cli.stop import stop_on_signals
 from kuglice.cli.threads import Threads
 from kuglice.cli.writable import writable_file
@@ -78,6 +79,10 @@ def server(
         ),
     ] = None,
     threads: Threads = 1,
+    integrator: Integrator = None,
+    contacts: Contacts = None,
+    substeps: Substeps = None,
+    broadphase: Broadphase = None,
     seconds: Annotated[
         float | None, typer.Option(min=0.0, help="Stop after this long. [default: on SIGINT or SIGTERM]")
     ] = None,
@@ -112,7 +117,10 @@ def server(
         insecure=insecure,
     )
     check_hosts((*settings.listen, *settings.connect))
-    with Server(scenes.find(scene), settings) as running:
+    chosen = pinned(
+        scenes.find(scene), integrator=integrator, contacts=contacts, substeps=substeps, broadphase=broadphase
+    )
+    with Server(chosen, settings) as running:
         where = ", ".join((*settings.listen, *settings.connect))
         STDERR.print(
             f"world {settings.world} of {running.world.count:,} balls on {where}: {running.world.model}"

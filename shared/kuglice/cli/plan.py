@@ -10,6 +10,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from kuglice.cli.pins import Broadphase, Contacts, Integrator, Substeps, pinned
 from kuglice.planner import expect
 from kuglice.planner import plan as choose
 from kuglice.scenes import find
@@ -24,13 +25,20 @@ def register(app: typer.Typer) -> None:
 
 def plan(
     scene: Annotated[str, typer.Argument(help="A TOML file or a built-in scene.", metavar="SCENE")],
+    *,
+    integrator: Integrator = None,
+    contacts: Contacts = None,
+    substeps: Substeps = None,
+    broadphase: Broadphase = None,
     as_json: Annotated[bool, typer.Option("--json", help="The same figures as JSON.")] = False,
 ) -> None:
     """Show the model that would compute a scene, and why.
 
-    Every choice has a reason. A scene may pin parts of it in its table [model].
+    Every choice has a reason. A scene may pin parts of it in its table [model], and so may the options.
     """
-    found = find(scene)
+    found = pinned(
+        find(scene), integrator=integrator, contacts=contacts, substeps=substeps, broadphase=broadphase
+    )
     model = choose(found)
     if as_json:
         expected = asdict(expect(found, model))
