@@ -1,5 +1,5 @@
-"""What .ci/memcheck runs under valgrind: every use of memory that a world lends, in the orders that could go wrong, and
-balls so many that their arrays are asked for in large pages."""
+"""What .ci/memcheck runs under valgrind: every use of memory that a world lends, in the orders that could go wrong, balls
+so many that their arrays are asked for in large pages, and snapshots of any length."""
 
 import gc
 from collections.abc import Callable
@@ -14,12 +14,17 @@ MANY = 270_000
 """Balls whose positions take more than 4 MiB: see large_pages.rs."""
 
 
-def world(count: int = COUNT) -> _core.World:
-    """Some balls in a box, whose memory is large enough to come and go as blocks of its own."""
+def box(count: int) -> tuple[_core.Rules, _core.Model]:
+    """Room for so many balls side by side."""
     rules = _core.Rules(
         box=(0.0, 0.0, count + 10.0, 10.0), walls=True, restitution=1.0, tick_rate=60.0, forces=[]
     )
-    model = _core.Model(integrator="verlet", contacts="overlap", broadphase="loose_quadtree")
+    return rules, _core.Model(integrator="verlet", contacts="overlap", broadphase="loose_quadtree")
+
+
+def world(count: int = COUNT) -> _core.World:
+    """Some balls in a box, whose memory is large enough to come and go as blocks of its own."""
+    rules, model = box(count)
     place = np.arange(count, dtype=float)
     return _core.World(
         rules,
@@ -88,6 +93,17 @@ def main() -> None:
     lease = many.lend()
     assert total(lease) == total(copy.lend())
     del many, copy, lease
+    gc.collect()
+
+    # A snapshot fills Python's bytes to their last, and what was written there says so.
+    for count in (*range(5), COUNT, MANY):
+        whole = world(count)
+        whole.run(1)
+        data = whole.snapshot()
+        again = _core.World.restore(*box(count), data)
+        assert again.state_hash == whole.state_hash
+        assert again.snapshot() == data
+    del whole, again, data
     gc.collect()
 
     # Nothing to lend is lent as well.

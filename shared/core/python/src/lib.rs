@@ -18,6 +18,11 @@ mod raster;
 mod recording;
 mod regions;
 mod rules;
+#[expect(
+    unsafe_code,
+    reason = "Python's bytes are filled once; see its SAFETY lines and .ci/memcheck"
+)]
+mod unfilled;
 mod world;
 
 use kuglice_regions::{MOST_DEPTH, MOST_SHAPES};

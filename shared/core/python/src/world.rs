@@ -13,6 +13,7 @@ use crate::errors::{named, raise};
 use crate::lease::Lease;
 use crate::model::Model;
 use crate::rules::Rules;
+use crate::unfilled;
 
 const HELD_KINDS: [HeldKind; 2] = [HeldKind::Thrust, HeldKind::Attract];
 
@@ -185,11 +186,7 @@ impl World {
     }
 
     fn snapshot<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let saving = self.inner.saving();
-        PyBytes::new_with(py, saving.len(), |bytes| {
-            saving.write_to(bytes);
-            Ok(())
-        })
+        unfilled::written(py, &self.inner.saving())
     }
 
     #[pyo3(name = "clone")]

@@ -171,6 +171,11 @@ impl Balls {
         (0..self.len()).map(|rank| self.order.index(rank))
     }
 
+    /// The same, where index order is not id order.
+    pub(crate) fn indices_by_id(&self) -> Option<&[u32]> {
+        self.order.indices()
+    }
+
     /// Whether index order is id order.
     #[must_use]
     pub fn is_by_id(&self) -> bool {

@@ -1,6 +1,7 @@
 //! Little-endian writing and bounded reading, shared by snapshots, rules and recordings.
 
-use crate::{Error, Vec2, hash};
+use crate::checksum::{ROW, checksum};
+use crate::{Error, Vec2};
 
 /// Of the checksum at the end.
 pub(crate) const SUM_BYTES: usize = 8;
@@ -49,14 +50,15 @@ impl Writer {
         self.bytes.extend_from_slice(bytes);
     }
 
-    /// What was written, for a checksum over more than that.
-    pub(crate) fn unsealed(self) -> Vec<u8> {
+    /// What was written, filled up with zeros to whole rows of a checksum over more than that.
+    pub(crate) fn unsealed(mut self) -> Vec<u8> {
+        self.bytes.resize(self.bytes.len().next_multiple_of(ROW), 0);
         self.bytes
     }
 
     /// Ends with a checksum over everything before it.
     pub(crate) fn seal(mut self) -> Vec<u8> {
-        let sum = hash::checksum(&self.bytes);
+        let sum = checksum(&self.bytes);
         self.u64(sum);
         self.bytes
     }
@@ -64,6 +66,7 @@ impl Writer {
 
 /// Reads numbers from bytes; every read beyond the end is an error that names what was being read.
 pub(crate) struct Reader<'a> {
+    all: usize,
     rest: &'a [u8],
     what: &'static str,
 }
@@ -79,7 +82,11 @@ impl<'a> Reader<'a> {
         let (body, sum) = bytes
             .split_last_chunk::<SUM_BYTES>()
             .ok_or_else(|| Error::Snapshot(format!("{what} of {} bytes is cut short", bytes.len())))?;
-        let mut reader = Reader { rest: body, what };
+        let mut reader = Reader {
+            all: body.len(),
+            rest: body,
+            what,
+        };
         if reader.take(4)? != magic {
             return Err(Error::Snapshot(format!(
                 "these bytes are not a {what}: they do not begin with {magic:?}"
@@ -92,7 +99,7 @@ impl<'a> Reader<'a> {
             )));
         }
         let sum = u64::from_le_bytes(*sum);
-        let computed = hash::checksum(body);
+        let computed = checksum(body);
         if computed != sum {
             return Err(Error::Snapshot(format!(
                 "{what} is damaged: its checksum is {sum:016x}, its bytes give {computed:016x}"
@@ -148,6 +155,19 @@ impl<'a> Reader<'a> {
             })
     }
 
+    /// The zeros that fill a row of the checksum up.
+    pub(crate) fn filling(&mut self) -> Result<(), Error> {
+        let read = self.all - self.rest.len();
+        let filling = self.take(read.next_multiple_of(ROW) - read)?;
+        if filling.iter().all(|&byte| byte == 0) {
+            return Ok(());
+        }
+        Err(Error::Snapshot(format!(
+            "{} has {filling:?} where zeros fill a row up",
+            self.what
+        )))
+    }
+
     /// So many rows of words.
     pub(crate) fn columns<const WORDS: usize>(
         &mut self,
@@ -188,3 +208,6 @@ impl<'a> Reader<'a> {
         Ok(*head)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -20,6 +20,7 @@
 mod apply;
 mod balls;
 pub mod broadphase;
+mod checksum;
 mod codec;
 pub mod contacts;
 mod energy;
@@ -47,7 +48,7 @@ pub use input::{INPUT_BYTES, Input, InputKind, NO_BALL, read_inputs, write_input
 pub use model::Model;
 pub use recording::Recording;
 pub use rules::Rules;
-pub use snapshot::Saving;
+pub use snapshot::{Saving, Slot};
 pub use state::{Counters, Held, HeldKind, Player, State};
 pub use team::{MOST_THREADS, Team};
 pub use vec2::Vec2;

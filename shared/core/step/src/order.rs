@@ -32,6 +32,11 @@ impl Order {
         self.by_id.is_empty()
     }
 
+    /// All indices in id order, where that is not memory order.
+    pub(crate) fn indices(&self) -> Option<&[u32]> {
+        (!self.is_by_id()).then_some(&self.by_id)
+    }
+
     /// The index of the ball with the `rank`-th lowest id.
     #[inline]
     pub(crate) fn index(&self, rank: usize) -> usize {

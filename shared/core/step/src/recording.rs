@@ -4,8 +4,8 @@ use crate::codec::{Reader, Writer};
 use crate::{Error, Input, Model, Rules, World, read_inputs, write_inputs};
 
 const MAGIC: &[u8; 4] = b"KGRE";
-/// 2: another checksum.
-const VERSION: u32 = 2;
+/// 2, 3: another checksum.
+const VERSION: u32 = 3;
 const WHAT: &str = "recording";
 
 /// A run that can be made again.

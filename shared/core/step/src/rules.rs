@@ -7,8 +7,8 @@ use crate::force::{self, Force};
 use crate::{Error, State};
 
 const MAGIC: &[u8; 4] = b"KGRU";
-/// 2: another checksum.
-const VERSION: u32 = 2;
+/// 2, 3: another checksum.
+const VERSION: u32 = 3;
 const WHAT: &str = "rules of a world";
 
 /// Box, walls, restitution, tick rate and forces of a world.
