@@ -1,5 +1,5 @@
-"""What .ci/memcheck runs under valgrind: every use of memory that a world lends, in the orders that could go wrong, balls
-so many that their arrays are asked for in large pages, and snapshots of any length."""
+"""What .ci/memcheck runs under valgrind: every use of memory that a world lends, in the orders that could go wrong;
+balls so many that their arrays are asked for in large pages; snapshots of any length."""
 
 import gc
 from collections.abc import Callable
