@@ -16,7 +16,7 @@ from kuglice.errors import JoinError
 from kuglice.inputs import Input
 from kuglice.protocol import Keys
 from kuglice.study.recorder import StudyRecorder
-from kuglice_client.join import Joined, find_world, join
+from kuglice_client.join import Joined, Who, find_world, join
 from kuglice_client.link import DatagramWatch, Link, Renewal, Waiting
 from kuglice_client.outbox import Outcome
 from kuglice_client.pace import judge_pace, step_seconds
@@ -35,7 +35,6 @@ __all__ = ["Client"]
 
 log = logging.getLogger(__name__)
 
-KNOWN_EPOCHS = 64
 SESSION_BYTES = 8
 
 
@@ -53,7 +52,6 @@ class Client(Closing):
         self.totals = Totals()
         self.screen = Screen(seconds=settings.correction_seconds, limit=settings.correction_limit)
         self._study: StudyRecorder | None = None
-        self._other_epochs: set[int] = set()
         # Tells us from another who takes the same name; whoever is cut off and comes back is the same still.
         self._session = secrets.token_hex(SESSION_BYTES)
         self.link = Link(settings.connect, deadline=deadline, stop=self.stop)
@@ -110,10 +108,11 @@ class Client(Closing):
 
         Returns how far the drawn state is from one tick to the next.
         """
-        while (epoch := self.replica.receive(now, ignored=self._other_epochs)) is not None:
-            self._rejoin(epoch)
+        self.replica.receive(now)
+        self.replica.heal(now)
+        if self.replica.over:
+            self._rejoin()
         replica = self.replica
-        replica.heal(now)
         answered = replica.healing.brought is not None
         if self.renewal.turn(now, silent=replica.stream.silent(now), answered=answered):
             replica.clock.relinked(now, in_order="udp" not in self.link.kinds)
@@ -177,9 +176,12 @@ class Client(Closing):
             self._study.close()
         return self.link.close(timeout)
 
+    @property
+    def _who(self) -> Who | None:
+        return None if self.settings.name is None else (self.settings.name, self._session)
+
     def _join(self, waiting: Waiting) -> Joined:
-        who = None if self.settings.name is None else (self.settings.name, self._session)
-        return join(waiting, self._keys, who)
+        return join(waiting, self._keys, self._who)
 
     def _enter(self, joined: Joined, deadline: float) -> None:
         """Begin in a world that was just joined, for the first time or after a restart of the server."""
@@ -192,6 +194,7 @@ class Client(Closing):
             self.link,
             self._keys,
             settings,
+            who=self._who,
             screen=self.screen,
             study=self._study,
             totals=self.totals,
@@ -207,23 +210,18 @@ class Client(Closing):
                 epoch=joined.epoch,
                 rate=about.rate,
             )
-        self.replica.enter(ignored=self._other_epochs, deadline=deadline, stop=self.stop)
+        self.replica.enter(deadline=deadline, stop=self.stop)
         whom = "a spectator" if joined.number is None else f"client {joined.number}"
         log.info("joined world %s at tick %d as %s", about.world, joined.world.tick, whom)
 
-    def _rejoin(self, epoch: int) -> None:
-        """A message of another run of the server came: see which one runs now."""
+    def _rejoin(self) -> None:
+        """The server was started again, or has given our player up. Raises JoinError if it will not have us back."""
+        if self.replica.credibility.restarted:
+            log.warning("world %s was restarted: it is joined again", self._keys.world)
+        else:
+            log.warning("the server has given client %s up: it joins again", self.settings.name)
         deadline = time.monotonic() + self.settings.wait
-        waiting = Waiting(self.link, deadline=deadline, stop=self.stop)
-        joined, ours = self._join(waiting), self.replica.joined.epoch
-        if len(self._other_epochs) >= KNOWN_EPOCHS:
-            self._other_epochs.clear()
-        if joined.epoch == ours:
-            log.warning("a message of epoch %d, but the server runs %d still: ignored", epoch, ours)
-            self._other_epochs.add(epoch)
-            return
-        log.warning("world %s was restarted: joined again", self._keys.world)
-        self._other_epochs.add(ours)
+        joined = self._join(Waiting(self.link, deadline=deadline, stop=self.stop))
         self.totals.rejoin(figures(self.replica, self.screen))
         self._enter(joined, deadline)
 

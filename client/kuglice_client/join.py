@@ -15,6 +15,7 @@ from kuglice.protocol import (
     ANY_EPOCH,
     ANY_STATUS,
     About,
+    Admission,
     ArrivalRequest,
     Keys,
     SnapshotRequest,
@@ -23,7 +24,7 @@ from kuglice.protocol import (
 )
 from kuglice_client.link import Asked, NotYetError, Waiting
 
-__all__ = ["Joined", "find_world", "join"]
+__all__ = ["Joined", "Who", "find_world", "join"]
 
 SNAPSHOT_SECONDS = 30.0
 """For a state to arrive: a large one takes its time on a thin link."""
@@ -133,20 +134,18 @@ class _Admission:
 
     def wait(self) -> tuple[int, int]:
         """Number, and the last sequence number that the server saw. Raises JoinError if refused, NotYetError."""
-        name, session = self._who
+        name, _ = self._who
         while True:
             try:
-                status = decode(self._asked.wait(self._waiting.stop)[0], Status)
+                told = decode(self._asked.wait(self._waiting.stop)[0], Admission)
             except (JoinError, ProtocolError) as error:
                 raise NotYetError(str(error)) from error
-            for refusal in status.refusals:
-                if (refusal.name, refusal.session) == self._who:
-                    raise JoinError(f"client {name}: {refusal.reason}")
-            here = status.clients.get(name)
-            if here is not None and here.session == session:
-                return here.number, here.sequence
+            if told.refused is not None:
+                raise JoinError(f"client {name}: {told.refused}")
+            if told.number is not None:
+                return told.number, told.sequence
             why = "the server has not let it in"
-            if here is not None and here.away:
+            if told.kept:
                 why = "another session plays it, whose link is cut: the server still waits for that one"
             self._waiting.pause(why=f"client {name}: {why}")
             self._asked = self._ask()

@@ -6,14 +6,14 @@ import logging
 import math
 import threading
 import time
-from collections.abc import Container
 
 from kuglice.protocol import History, Keys, Tick
 from kuglice.study.recorder import StudyRecorder
 from kuglice_client.clock import Clock
+from kuglice_client.credibility import Credibility
 from kuglice_client.follow import Follower
 from kuglice_client.healing import Healing
-from kuglice_client.join import Joined
+from kuglice_client.join import Joined, Who
 from kuglice_client.link import Link
 from kuglice_client.pinging import Pinging
 from kuglice_client.player import Player
@@ -30,6 +30,7 @@ log = logging.getLogger(__name__)
 
 PREDICTED_SECONDS = 1.5
 LAG_SECONDS = 2.0
+"""That a client may be behind, and for how long, before it says so."""
 CONFIRM_SECONDS = 0.05
 STEP_WEIGHT = 0.05
 """Of a turn, in the mean of what a confirmed tick costs."""
@@ -55,6 +56,7 @@ class Replica:
         keys: Keys,
         settings: ClientSettings,
         *,
+        who: Who | None,
         screen: Screen,
         study: StudyRecorder | None,
         totals: Totals,
@@ -66,9 +68,11 @@ class Replica:
         self._screen = screen
         self._study = study
         self._lagging = False
+        self._lags_since: float | None = None
         self._entered = False
         self._step_seconds = 0.0
-        self.stream = Stream(link, joined, lose=settings.lose, totals=totals, now=now)
+        self.credibility = Credibility(link, keys, joined)
+        self.stream = Stream(link, joined, self.credibility, lose=settings.lose, totals=totals, now=now)
         self.follower = Follower(joined.world)
         self.reconciler = Reconciler(
             self.follower,
@@ -93,7 +97,9 @@ class Replica:
             input_delay=settings.input_delay,
             in_order="udp" not in link.kinds,
         )
-        self._pinging = Pinging(link, keys, epoch=joined.epoch, now=now)
+        self._pinging = Pinging(
+            link, keys, epoch=joined.epoch, who=who if joined.number is not None else None, now=now
+        )
         self.player = (
             None
             if joined.number is None
@@ -108,14 +114,15 @@ class Replica:
             )
         )
 
-    def enter(self, *, ignored: Container[int], deadline: float, stop: threading.Event) -> None:
+    def enter(self, *, deadline: float, stop: threading.Event) -> None:
         """Catch up with what was told while the state was on its way, and predict up to now.
 
         Nobody sees that or acts meanwhile: it would be seconds of the past, played too fast. Ends at the `deadline`,
-        when `stop` is set, or when another run of the server says something, in any case.
+        when `stop` is set, or when the server is another run by now, in any case.
         """
         until = min(deadline, time.monotonic() + ENTER_SECONDS)
-        while (now := time.monotonic()) < until and self.receive(now, ignored=ignored) is None:
+        while (now := time.monotonic()) < until and not self.over:
+            self.receive(now)
             self.heal(now)
             self.advance(now)
             present = self.follower.behind == 0 and self.follower.world.tick >= self._told_by(now)
@@ -130,20 +137,25 @@ class Replica:
         about = self.joined.about
         return about.tick + (now - self.joined.told_at - ENTER_SLACK_SECONDS) * about.rate - 1.0
 
-    def receive(self, now: float, *, ignored: Container[int]) -> int | None:
-        """Take in what came. The epoch of another run of the server that says something, and is not `ignored`."""
+    @property
+    def over(self) -> bool:
+        """Whether the server is another run by now, or has given our player up: then the world is to be joined anew."""
+        told = self._pinging.admission
+        given_up = told is not None and told.epoch == self.joined.epoch and told.number != self.joined.number
+        return given_up or self.credibility.restarted
+
+    def receive(self, now: float) -> None:
+        """Take in what came."""
         # Snapshots first: one that is ahead waits for its tick, one that is far behind cannot be compared.
         for whole in self.stream.snapshots():
             if self.reconciler.received(whole):
                 self._replaced(now)
-        for message in self.stream.ticks(now, ignored=ignored):
-            if message.epoch != self.joined.epoch:
-                return message.epoch
+        for message in self.stream.ticks(now):
             self._heard(message, now)
-        return None
 
     def heal(self, now: float) -> None:
-        """Ask for what is missing, and take in what was answered."""
+        """Ask for what is missing or in doubt, and take in what was answered."""
+        self.credibility.turn(now)
         silent = self.stream.silent(now)
         missing = max(self.follower.behind, (now - self.stream.heard_at) * self.joined.about.rate)
         if self.healing.turn(now, missing=missing, step_seconds=self._step_seconds, silent=silent):
@@ -239,9 +251,14 @@ class Replica:
 
     def _note_lag(self) -> None:
         behind = self.follower.behind
-        if not self._lagging and behind > LAG_SECONDS * self.joined.about.rate:
+        if behind <= LAG_SECONDS * self.joined.about.rate:
+            self._lags_since = None
+        elif self._lags_since is None:
+            # One that was stopped, or cut off, steps through what it missed at once.
+            self._lags_since = time.monotonic()
+        elif not self._lagging and time.monotonic() - self._lags_since > LAG_SECONDS:
             self._lagging = True
             log.warning("%d ticks behind the stream: this machine steps slower than the server", behind)
-        elif self._lagging and behind == 0:
+        if self._lagging and behind == 0:
             self._lagging = False
             log.info("caught up with the stream")

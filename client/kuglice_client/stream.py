@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Container, Iterator
+from collections.abc import Callable, Iterator
 
 from kuglice.errors import ProtocolError
 from kuglice.protocol import PART_BYTES, Assembly, Tick, Whole
+from kuglice_client.credibility import Credibility
 from kuglice_client.join import Joined
 from kuglice_client.link import Link
 from kuglice_client.totals import Totals
@@ -25,11 +26,19 @@ class Stream:
     """Of the run of the server that was joined at `now`. What `lose` says True for is thrown away on arrival."""
 
     def __init__(
-        self, link: Link, joined: Joined, *, lose: Callable[[int], bool] | None, totals: Totals, now: float
+        self,
+        link: Link,
+        joined: Joined,
+        credibility: Credibility,
+        *,
+        lose: Callable[[int], bool] | None,
+        totals: Totals,
+        now: float,
     ) -> None:
         self._link = link
         self._world = joined.about.world
         self._epoch = joined.epoch
+        self._credibility = credibility
         self._lose = lose
         self._totals = totals
         self._assembly = Assembly()
@@ -57,13 +66,12 @@ class Stream:
             if whole is not None:
                 yield whole
 
-    def ticks(self, now: float, *, ignored: Container[int]) -> Iterator[Tick]:
-        """Messages that came since the last call, those of other runs of the server too that are not `ignored`."""
+    def ticks(self, now: float) -> Iterator[Tick]:
+        """Messages of this run that came since the last call, as far as they are to be believed."""
         for message in self._link.ticks():
-            if message.epoch != self._epoch:
-                if message.epoch not in ignored:
-                    yield message
-            elif self._lose is not None and self._lose(message.end - 1):
+            if not self._credibility.believes(message, now):
+                continue
+            if self._lose is not None and self._lose(message.end - 1):
                 self._totals.messages_thrown_away += 1
             else:
                 self.heard_at, self._stalled = now, False

@@ -12,6 +12,7 @@ from kuglice.errors import KugliceError, ProtocolError
 from kuglice.protocol import (
     ANY_EPOCH,
     About,
+    Admission,
     ArrivalRequest,
     Declared,
     History,
@@ -44,8 +45,9 @@ class Answers:
     """Queryables of one world.
 
     `about`, `view` and `status` are called for fresh messages, `settled` for whether a name and session play or were
-    refused; all must be safe to call from any thread. Each key has a thread of its own, and what must be waited for
-    is waited for elsewhere: whoever measures how long an answer takes, or heals, never waits behind somebody's state.
+    refused, `admission` for which of it; all must be safe to call from any thread. Each key has a thread of its own,
+    and what must be waited for is waited for elsewhere: whoever measures how long an answer takes, or heals, never
+    waits behind somebody's state.
     """
 
     def __init__(
@@ -59,6 +61,7 @@ class Answers:
         view: Callable[[], ViewAbout],
         status: Callable[[], Status],
         settled: Callable[[str, str], bool],
+        admission: Callable[[str, str], Admission],
         history: KeptHistory,
     ) -> None:
         self._epoch = epoch
@@ -66,6 +69,8 @@ class Answers:
         self._about = about
         self._view = view
         self._status = status
+        self._settled = settled
+        self._admission = admission
         self._history = history
         self._arrivals = Arrivals(settled)
         self._snapshots = Snapshots()
@@ -112,7 +117,9 @@ class Answers:
         if query.payload is None:
             return _at_once, self._tell_status
         arrival = decode(query.payload.to_bytes(), ArrivalRequest)
-        return partial(self._arrivals.answer, arrival.name, arrival.session), self._tell_status
+        who = arrival.name, arrival.session
+        run = _at_once if self._settled(*who) else partial(self._arrivals.answer, *who)
+        return run, partial(self._tell_admission, *who)
 
     def _history_route(self, query: zenoh.Query) -> _Route:
         payload = query.payload
@@ -136,6 +143,9 @@ class Answers:
 
     def _tell_status(self) -> Iterator[Message]:
         yield self._status()
+
+    def _tell_admission(self, name: str, session: str) -> Iterator[Message]:
+        yield self._admission(name, session)
 
     def _tell_ticks(self, request: TickRange) -> Iterator[Message]:
         ticks = self._history.ticks(request.first, request.end)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from kuglice import Scene, World
 from kuglice.errors import InputError
 from kuglice.inputs import Input, Leave, join
-from kuglice.protocol import Ack, ClientStatus, SessionRefusal
+from kuglice.protocol import Ack, Admission, ClientStatus
 
 __all__ = ["Player", "Players"]
 
@@ -151,8 +151,9 @@ class Players:
                 authored.append(self._admit(name, session, world))
             except InputError as error:
                 log.warning("%s is refused: %s", name, error)
-                if len(self._refused) < MAX_NAMES:
-                    self._refused[waiting] = str(error)[:400]
+                self._refused[waiting] = str(error)[:400]
+                if len(self._refused) > MAX_NAMES:
+                    del self._refused[next(iter(self._refused))]
         return authored
 
     def _next_waiting(self) -> Who | None:
@@ -176,7 +177,6 @@ class Players:
         return {
             player.name: ClientStatus(
                 number=player.number,
-                session=player.session,
                 away=player.away_since is not None,
                 sequence=player.sequence,
                 accepted=player.accepted,
@@ -186,12 +186,17 @@ class Players:
             for player in self.present
         }
 
-    def refusals(self) -> list[SessionRefusal]:
-        """The sessions that were not let in, and why."""
-        return [
-            SessionRefusal(name=name, session=session, reason=reason)
-            for (name, session), reason in self._refused.items()
-        ]
+    def admission(self, name: str, session: str, *, epoch: int) -> Admission:
+        """How it stands with that session."""
+        player = self.find(name, session)
+        holder = self._by_name.get(name)
+        return Admission(
+            epoch=epoch,
+            number=None if player is None else player.number,
+            sequence=0 if player is None else player.sequence,
+            refused=self._refused.get((name, session)),
+            kept=player is None and holder is not None and holder.present and holder.away_since is not None,
+        )
 
     def _admit(self, name: str, session: str, world: World) -> Input:
         known = self._by_name.get(name)

@@ -16,6 +16,7 @@ from kuglice.closing import Closing
 from kuglice.inputs import Input
 from kuglice.protocol import (
     About,
+    Admission,
     Declared,
     Keys,
     Status,
@@ -76,7 +77,7 @@ class Server(Closing):
         self._balls = self.world.count
         with ExitStack() as undo:
             self._session = open_session(
-                server_configuration(listen=settings.listen, connect=settings.connect)
+                server_configuration(listen=settings.listen, connect=settings.connect, keys=self._keys)
             )
             undo.callback(close_session, self._session, ())
             if settings.connect:
@@ -149,6 +150,7 @@ class Server(Closing):
             view=self.view_about,
             status=self.status,
             settled=self._settled,
+            admission=self._admission,
             history=self._history,
         )
 
@@ -207,6 +209,10 @@ class Server(Closing):
         with self._lock:
             return self._players.settled(name, session)
 
+    def _admission(self, name: str, session: str) -> Admission:
+        with self._lock:
+            return self._players.admission(name, session, epoch=self.epoch)
+
     def about(self) -> About:
         """What a client must know to join. Safe from any thread."""
         return self._description.about(tick=self._now)
@@ -225,7 +231,6 @@ class Server(Closing):
                 rate=self.cadence.rate,
                 balls=self._balls,
                 clients=self._players.status(),
-                refusals=self._players.refusals(),
                 counters={**self.counters.all(), "late_ticks": self._schedule.late_ticks},
                 seconds_lost=self._schedule.seconds_lost,
                 worst_lateness=self._schedule.worst_lateness,

@@ -59,7 +59,7 @@ def asked(request):
 
 def test_a_yes_takes_as_long_as_a_no_and_only_one_question_is_under_way(asked):
     server, link = asked
-    pinging = Pinging(link, KEYS, epoch=EPOCH, now=100.0)
+    pinging = Pinging(link, KEYS, epoch=EPOCH, who=None, now=100.0)
     assert pinging.turn(100.0 + 0.9 * EVERY_SECONDS, 5) is None
     assert pinging.turn(100.0 + EVERY_SECONDS, -1) is None, "there is no tick to ask about yet"
     began = 100.0 + EVERY_SECONDS
@@ -81,7 +81,7 @@ def test_a_yes_takes_as_long_as_a_no_and_only_one_question_is_under_way(asked):
 def test_silence_measures_nothing_and_the_next_question_comes_in_its_time(asked):
     server, link = asked
     server._queryable.undeclare()
-    pinging = Pinging(link, KEYS, epoch=EPOCH, now=0.0)
+    pinging = Pinging(link, KEYS, epoch=EPOCH, who=None, now=0.0)
     # Asked and given up, again and again: never does it say how long that took.
     until = time.monotonic() + 1.0
     now = 0.0

@@ -73,6 +73,8 @@ class RawClient:
         """Take in what came; remembers outcomes and the newest tick."""
         messages = []
         while (sample := self._ticks.try_recv()) is not None:
+            if str(sample.key_expr) != self.keys.tick:
+                continue
             message = decode(sample.payload.to_bytes(), Tick)
             messages.append(message)
             self.tick = max(self.tick, message.end)

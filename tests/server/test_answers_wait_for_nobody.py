@@ -18,6 +18,7 @@ import zenoh
 from e2e.processes import free_endpoint, until
 from kuglice.protocol import (
     ANY_EPOCH,
+    Admission,
     ArrivalRequest,
     Keys,
     Message,
@@ -51,7 +52,6 @@ def status() -> Status:
         rate=60.0,
         balls=0,
         clients={},
-        refusals=[],
         counters={},
         seconds_lost=0.0,
         worst_lateness=0.0,
@@ -86,7 +86,7 @@ class Desk:
                 reply = None if found else handler.try_recv()
                 if reply is not None:
                     data = reply.ok.payload if reply.ok is not None else reply.err.payload
-                    found.append(decode(data.to_bytes(), Status, Part, Refusal))
+                    found.append(decode(data.to_bytes(), Status, Admission, Part, Refusal))
                 return bool(found)
 
             if waited_for:
@@ -122,6 +122,7 @@ def desk(monkeypatch):
         view=_About,
         status=status,
         settled=lambda *who: who in settled,
+        admission=lambda *who: Admission(epoch=EPOCH, number=1, sequence=0, refused=None, kept=False),
         history=kept,
     )
     yield Desk(answers, kept, asker, settled)
@@ -134,7 +135,7 @@ def test_nobody_waits_behind_names_that_cannot_be_settled(desk):
     in_vain = [desk.ask_as(f"in-vain-{number}") for number in range(20)]
     assert isinstance(desk.ask(KEYS.status, None)(), Status)
     desk.settled.add(("ana", "session"))
-    assert isinstance(desk.ask_as("ana")(), Status)
+    assert isinstance(desk.ask_as("ana")(), Admission)
     assert not any(answer(waited_for=False) for answer in in_vain)
 
 
@@ -143,7 +144,7 @@ def test_who_waits_is_answered_by_the_tick_that_settles_it(desk):
     desk.ask(KEYS.status, None)()
     desk.settled.add(("bob", "session"))
     desk.answers.ticked()
-    assert isinstance(bob(), Status)
+    assert isinstance(bob(), Admission)
     assert ana(waited_for=False) is None
 
 
@@ -165,5 +166,5 @@ def test_what_cannot_be_asked_is_refused_at_once(desk):
 def test_more_than_may_wait_are_answered_at_once(desk, monkeypatch):
     monkeypatch.setattr(arrivals, "MOST_WAITING", 1)
     first, second = desk.ask_as("first"), desk.ask_as("second")
-    assert isinstance(second(), Status)
+    assert isinstance(second(), Admission)
     assert first(waited_for=False) is None

@@ -16,6 +16,7 @@ FIRST_SECONDS = 4.0
 RENEWED_SECONDS = 2.0
 """A link that does come up has done so by then, where nothing has to be waited for but it."""
 EVERY_SECONDS = 1.0
+GLANCE_SECONDS = 0.1
 
 
 class DatagramWatch:
@@ -24,6 +25,7 @@ class DatagramWatch:
     def __init__(self, link: Link) -> None:
         self._link = link
         self._look_at = time.monotonic() + FIRST_SECONDS
+        self._glance_at = 0.0
         self._were_up: bool | None = None
         self.missing = False
         """Whether one of the two did not get through when last looked at."""
@@ -40,10 +42,15 @@ class DatagramWatch:
 
     def turn(self, now: float) -> None:
         """Look, now and then."""
-        if not self._link.wants_datagrams or now < self._look_at:
+        if not self._link.wants_datagrams or now < min(self._look_at, self._glance_at):
             return
-        self._look_at = now + EVERY_SECONDS
         kinds = self._link.kinds
+        if now < self._look_at:
+            # Too early to miss what is not there; but what was there has come up.
+            self._glance_at = now + GLANCE_SECONDS if len(kinds) < 2 else self._look_at
+            self._were_up = True if len(kinds) > 1 else self._were_up
+            return
+        self._look_at = self._glance_at = now + EVERY_SECONDS
         if not kinds:
             # Cut off altogether: that is told as silence.
             return

@@ -81,6 +81,11 @@ class Keys:
         """The nodes at and below the end of `path`."""
         return f"{self.region(pace, path)}/**"
 
+    @property
+    def all_regions(self) -> str:
+        """Every region, at every pace."""
+        return self._under("region/**")
+
     @staticmethod
     def node_of(key: str) -> tuple[int, ...]:
         """Path of the node that a region's key belongs to; raises ProtocolError."""
@@ -91,7 +96,7 @@ class Keys:
 
     @property
     def inputs(self) -> str:
-        """The input keys of all clients, for the server to subscribe to."""
+        """The input keys of all clients."""
         return self._under("input/*/*")
 
     @property

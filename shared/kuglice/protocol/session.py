@@ -13,7 +13,9 @@ import zenoh
 
 from kuglice.aside import aside
 from kuglice.errors import ProtocolError
+from kuglice.protocol.access import access_control
 from kuglice.protocol.endpoints import DATAGRAMS, as_written, locators, unresolved
+from kuglice.protocol.keys import Keys
 
 __all__ = [
     "LEASE_MS",
@@ -52,12 +54,24 @@ class Declared(Protocol):
         """Withdraw it."""
 
 
-def server_configuration(*, listen: Sequence[str], connect: Sequence[str]) -> dict[str, Any]:
-    """The server is its own router (`listen`), or joins one that runs already (`connect`), or both."""
-    if listen:
+def server_configuration(
+    *, listen: Sequence[str], connect: Sequence[str], keys: Keys | None = None
+) -> dict[str, Any]:
+    """The server is its own router (`listen`), or joins one that runs already (`connect`), or both.
+
+    `keys`: of the world that it serves, None for what only passes on (access.py).
+    """
+    made = (
         # A link that is dead is to be noticed at the other end too, and soon.
-        return _configuration("router", listen=listen, connect=connect, lease_ms=LEASE_MS)
-    return _configuration("client", listen=(), connect=connect)
+        _configuration("router", listen=listen, connect=connect, lease_ms=LEASE_MS)
+        if listen
+        else _configuration("client", listen=(), connect=connect)
+    )
+    if keys is not None:
+        made["access_control"] = access_control(keys)
+        # It lists whatever is declared.
+        made["adminspace"] = {"enabled": False}
+    return made
 
 
 def client_configuration(connect: Sequence[str], *, timeout: float, reconnect: bool = True) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from kuglice.protocol.messages.about import About
 from kuglice.protocol.messages.ack import Ack
+from kuglice.protocol.messages.admission import Admission
 from kuglice.protocol.messages.client_inputs import MAX_INPUTS, ClientInputs, SentInput
 from kuglice.protocol.messages.envelope import PROTOCOL_VERSION, Message
 from kuglice.protocol.messages.history import History
@@ -10,7 +11,7 @@ from kuglice.protocol.messages.part import PART_BYTES, Part
 from kuglice.protocol.messages.refusal import Refusal
 from kuglice.protocol.messages.region import MAX_REGION_BALLS, Region
 from kuglice.protocol.messages.request import ANY_EPOCH, ArrivalRequest, SnapshotRequest, TickRange
-from kuglice.protocol.messages.status import ClientStatus, SessionRefusal, Status
+from kuglice.protocol.messages.status import ClientStatus, Status
 from kuglice.protocol.messages.stretch import Stretch, StretchedTick
 from kuglice.protocol.messages.tick import MAX_TOLD_TICKS, Tick
 from kuglice.protocol.messages.view_about import PACES, RegionTerms, ViewAbout
@@ -25,6 +26,7 @@ __all__ = [
     "PROTOCOL_VERSION",
     "About",
     "Ack",
+    "Admission",
     "ArrivalRequest",
     "ClientInputs",
     "ClientStatus",
@@ -36,7 +38,6 @@ __all__ = [
     "Region",
     "RegionTerms",
     "SentInput",
-    "SessionRefusal",
     "SnapshotRequest",
     "Status",
     "Stretch",

@@ -8,7 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 __all__ = ["PROTOCOL_VERSION", "U64", "CompactMessage", "Message", "TickNumber"]
 
-PROTOCOL_VERSION = 4
+PROTOCOL_VERSION = 5
 """Raised by one when an old reader would misread a new message."""
 
 U64 = Annotated[int, Field(ge=0, lt=2**64)]

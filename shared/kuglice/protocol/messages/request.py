@@ -45,7 +45,7 @@ class SnapshotRequest(Message):
 
 
 class ArrivalRequest(Message):
-    """Asks how it goes once it is clear whether this `session` plays `name`: it has just shown itself.
+    """Asks for an Admission, once it is clear whether this `session` plays `name`: it has just shown itself.
 
     The epoch is not known yet: ANY_EPOCH.
     """

@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar
+from typing import ClassVar
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict
 
 from kuglice.protocol.messages.envelope import U64, Message, TickNumber
 
-__all__ = ["ClientStatus", "SessionRefusal", "Status"]
+__all__ = ["ClientStatus", "Status"]
 
 
 class ClientStatus(BaseModel):
     """A client that is here; `number` orders its inputs in the step.
 
-    `session` is the one that plays it; `away`: its link is cut, and its return waited for.
+    `away`: its link is cut, and its return waited for. Its session is nobody's business but its own.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
 
     number: int
-    session: str
     away: bool
     sequence: U64
     accepted: int
@@ -28,18 +27,8 @@ class ClientStatus(BaseModel):
     refused: int
 
 
-class SessionRefusal(BaseModel):
-    """A session that was not let in as the client `name`, and why."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
-
-    name: str
-    session: str
-    reason: Annotated[str, Field(max_length=400)]
-
-
 class Status(Message):
-    """`sequence` of a client is the highest one seen of it, so that one that returns counts on from there.
+    """`sequence` of a client is the highest one seen of it.
 
     `counters`: what came in, went out and went wrong, by names like those of the fields. What never was is missing.
     """
@@ -52,7 +41,6 @@ class Status(Message):
     rate: float
     balls: int
     clients: dict[str, ClientStatus]
-    refusals: list[SessionRefusal]
     counters: dict[str, int]
     seconds_lost: float
     worst_lateness: float
