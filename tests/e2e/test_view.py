@@ -32,8 +32,8 @@ def scene(tmp_path):
 def look(endpoint) -> Callable[..., View]:
     opened: list[View] = []
 
-    def make(rectangle=VIEW, **given) -> View:
-        opened.append(View(ViewSettings(rectangle, connect=(endpoint,), wait=30.0, **given)))
+    def make(rectangle=VIEW, at=endpoint, **given) -> View:
+        opened.append(View(ViewSettings(rectangle, connect=(at,), wait=30.0, **given)))
         return opened[-1]
 
     yield make
@@ -128,8 +128,11 @@ def test_a_server_that_starts_anew_is_looked_at_again(start, scene, endpoint, lo
     assert view.in_sight.sum() > 10
 
 
-def test_a_hostile_region_is_refused_and_the_view_goes_on(endpoint, look, server):
-    view = look()
+def test_a_hostile_region_is_refused_and_the_view_goes_on(start, endpoint, look, server):
+    # The server takes no regions from anybody; a router passes on what its clients say to each other.
+    behind = free_endpoint()
+    start("router", "--connect", endpoint, "--listen", behind)
+    view = look(at=behind)
     tick = whole_tick(view)
     node = min(view.replica.interest.paces)
     key = Keys(WORLD).region(0, view.replica.nodes.path(node))
@@ -141,7 +144,7 @@ def test_a_hostile_region_is_refused_and_the_view_goes_on(endpoint, look, server
         encode(Region(epoch=view.replica.about.epoch, tick=tick, node=node + 1, balls=b"\0")),
         encode(Region(epoch=view.replica.about.epoch, tick=tick, node=node, balls=b"\xff" * 1000)),
     ]
-    with RawClient(endpoint, WORLD, None) as other:
+    with RawClient(behind, WORLD, None) as other:
         for payload in wrong:
             other.session.put(key, payload, congestion_control=zenoh.CongestionControl.BLOCK)
 
