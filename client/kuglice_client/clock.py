@@ -6,7 +6,9 @@ that a report says what lead would have been just enough, however much the clock
 last reports counts. Until there are enough of them, round trip and jitter of the stream stand in: for who acts
 seldom they always do.
 
-What comes of it moves at 0.98 to 1.02 times the server's rate; it jumps only on joining and after a long stall.
+What comes of it moves at 0.98 to 1.02 times the server's rate; it jumps only on joining and after a long stall, and
+within the two seconds after that: what is measured then may have been held up by a lost segment, or by a state that
+fills the link, and a lead that is too long by a second would take a minute to go.
 """
 
 from __future__ import annotations
@@ -18,6 +20,10 @@ __all__ = ["Clock"]
 SLEW = 0.02
 STALL_SECONDS = 0.5
 SETTLING_SECONDS = 2.0
+FALL_SECONDS = 0.2
+"""By which the lead must be too long to be given up at once while settling: the picture stands still meanwhile."""
+QUEUED_SECONDS = 0.05
+"""While settling, messages that were later than the next one by more had been queueing; that is no jitter."""
 SAFETY_TICKS = 0.5
 REPEAT_TICKS = 1.0
 """From one copy of an input to the next: a lost message must be made up for in time."""
@@ -71,7 +77,7 @@ class Clock:
     @property
     def lead(self) -> float:
         """Ticks that the client runs ahead of the stream as it hears it."""
-        return self._wanted_lead if self._at is None else self._at - self._stream(self._moved_to)
+        return self._wanted_lead if self._at is None else self._last - self._stream(self._moved_to)
 
     @property
     def wanted_lead(self) -> float:
@@ -91,6 +97,7 @@ class Clock:
     def answered(self, round_trip: float) -> None:
         """A query took that many seconds."""
         self._trips.append(round_trip)
+        self._want(self._heard_at)
 
     def relinked(self, now: float, *, in_order: bool) -> None:
         """The link is another one now: what inputs asked for on the last says nothing of it."""
@@ -104,11 +111,18 @@ class Clock:
         if silent or origin - self._origin > STALL_SECONDS:
             self.snaps += not self._jump
             self._jump = True
-            self._resumed_at = self._counted_since = now
+            self._counted_since = now
             self._needed.clear()
+        # What has waited, for us to join or for the link to return, says nothing about jitter.
         if self._jump:
-            # What has waited, for us to join or for the link to return, says nothing about jitter.
             self._origins.clear()
+        elif self._settling(now) and origin < self._origin:
+            kept = [one for one in self._origins if one <= origin + QUEUED_SECONDS]
+            if len(kept) < len(self._origins):
+                self._origins = deque(kept, maxlen=ARRIVALS)
+                # Nor does the lead over a stream that was late by so much say what lead is needed.
+                self._counted_since = now
+                self._needed.clear()
         self._origins.append(origin)
         self._origin = min(self._origins)
         self._heard_at = now
@@ -133,15 +147,20 @@ class Clock:
         self._moved_to = until
         wanted = self._stream(until) + self._wanted_lead
         if self._at is None or self._jump:
-            self._at, self._jump = wanted, False
+            self._at, self._jump, self._resumed_at = wanted, False, until
         else:
-            fastest = max(wanted, self._at) if until - self._resumed_at < SETTLING_SECONDS else self._at
-            fastest = max(fastest, self._at + (1 + SLEW) * passed)
-            at = max(self._at + (1 - SLEW) * passed, min(fastest, wanted))
+            slowest, fastest = self._at + (1 - SLEW) * passed, self._at + (1 + SLEW) * passed
+            if self._settling(until):
+                fastest = max(wanted, fastest)
+                slowest = wanted if self._at - wanted > FALL_SECONDS * self._rate else slowest
+            at = max(slowest, min(fastest, wanted))
             self.pace = (at - self._at) / passed if passed else self.pace
             self._at = at
         self._last = max(self._last, self._at)
         return self._last
+
+    def _settling(self, now: float) -> bool:
+        return now - self._resumed_at < SETTLING_SECONDS
 
     def _stream(self, now: float) -> float:
         return (now - self._origin) * self._rate

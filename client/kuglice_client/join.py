@@ -98,7 +98,6 @@ def _attempt(waiting: Waiting, keys: Keys, who: Who | None) -> Joined:
     except ProtocolError as error:
         raise JoinError(f"{keys.about}: {error}") from error
     told_at = time.monotonic()
-    round_trip = told_at - asked_at
     if about.step_version != _core.STEP_VERSION:
         raise JoinError(
             f"step version {about.step_version} of the server (kuglice {about.version}): this client has "
@@ -119,7 +118,16 @@ def _attempt(waiting: Waiting, keys: Keys, who: Who | None) -> Joined:
     except KugliceError as error:
         raise JoinError(f"world {about.world}: {error}") from error
     return Joined(
-        about.epoch, about, scene, model, world, number, sequence, round_trip, state_seconds, told_at
+        about.epoch,
+        about,
+        scene,
+        model,
+        world,
+        number,
+        sequence,
+        link.quickest_answer,
+        state_seconds,
+        told_at,
     )
 
 

@@ -13,6 +13,9 @@ from kuglice_client.link import Asked, Link
 __all__ = ["Pinging"]
 
 EVERY_SECONDS = 2.0
+FIRST_EVERY_SECONDS = 0.1
+FIRST = 8
+"""Asked in quick succession: a single answer that was held up would be taken for how long the way is."""
 
 
 class Pinging:
@@ -25,9 +28,16 @@ class Pinging:
         self._who = who
         self._session = link.session
         self._asked: Asked | None = None
-        self._asked_at = now
+        self._asked_at = now - FIRST_EVERY_SECONDS
+        self._first_left = FIRST
+        self.answers = 0
         self.admission: Admission | None = None
         """What the server last said of us."""
+
+    @property
+    def idle(self) -> bool:
+        """Whether no answer is waited for."""
+        return self._asked is None
 
     def turn(self, now: float, tick: int) -> float | None:
         """Ask, or hear the answer; then the seconds that it took. `tick` is one that the server has made."""
@@ -35,8 +45,10 @@ class Pinging:
             # After a cut it may be another who plays, and what was asked over the old link is not answered.
             self._session, self._asked, self._asked_at = self._link.session, None, now - EVERY_SECONDS
         if self._asked is None:
-            if now - self._asked_at >= EVERY_SECONDS and tick >= 0:
+            every = FIRST_EVERY_SECONDS if self._first_left else EVERY_SECONDS
+            if now - self._asked_at >= every and tick >= 0:
                 self._asked, self._asked_at = self._ask(tick), now
+                self._first_left = max(0, self._first_left - 1)
             return None
         try:
             replies = self._asked.poll()
@@ -47,11 +59,13 @@ class Pinging:
         except JoinError:
             # A no takes as long as a yes; silence measures nothing.
             refused, self._asked = self._asked.refused, None
-            return now - self._asked_at if refused else None
+            if not refused:
+                return None
         except ProtocolError:
             self._asked = None
             return None
         self._asked = None
+        self.answers += 1
         return now - self._asked_at
 
     def _ask(self, tick: int) -> Asked:

@@ -39,6 +39,8 @@ ENTER_SECONDS = 5.0
 ENTER_SLACK_SECONDS = 0.25
 """By which the stream may be late for once, and is the present all the same."""
 ENTER_IDLE_SECONDS = 0.001
+DOUBTED_TRIP_SECONDS = 0.4
+"""Who measured a longer one while joining asks once more: one lost segment adds that much, and few ways are so long."""
 PREDICT_SECONDS = 0.012
 """Of one turn: running forward again that takes longer goes on in the next, and frames come in between."""
 
@@ -121,16 +123,33 @@ class Replica:
         when `stop` is set, or when the server is another run by now, in any case.
         """
         until = min(deadline, time.monotonic() + ENTER_SECONDS)
+        begun = False
         while (now := time.monotonic()) < until and not self.over:
             self.receive(now)
             self.heal(now)
-            self.advance(now)
-            present = self.follower.behind == 0 and self.follower.world.tick >= self._told_by(now)
-            if present and self.prediction.world.tick >= math.floor(self.clock.target(time.monotonic())):
+            # The clock begins to run here, and never runs back: not before it is known how far ahead it must be.
+            begun = begun or (self._is_present(now) and self._knows_the_way())
+            if begun:
+                self.advance(now)
+            else:
+                self._confirm(now)
+            if begun and self._is_present(now) and self._has_predicted():
                 break
             if stop.wait(ENTER_IDLE_SECONDS):
                 break
         self._entered = True
+
+    def _is_present(self, now: float) -> bool:
+        return self.follower.behind == 0 and self.follower.world.tick >= self._told_by(now)
+
+    def _knows_the_way(self) -> bool:
+        """Whether the round trip is one to go by, or a long one that may have been held up is the only one known."""
+        return self.clock.round_trip <= DOUBTED_TRIP_SECONDS or self._pinging.answers > 0
+
+    def _has_predicted(self) -> bool:
+        """Whether prediction is as far as the clock, or as far as it ever goes."""
+        ahead = math.floor(self.clock.target(time.monotonic()))
+        return self.prediction.world.tick >= min(ahead, self.follower.world.tick + self.prediction.limit)
 
     def _told_by(self, now: float) -> float:
         """The tick that the stream should have come to by `now`, going by when the server told which tick it was."""

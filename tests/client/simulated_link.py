@@ -16,6 +16,7 @@ from kuglice.lab.network.line import Line
 from kuglice.protocol import Ack, ClientInputs, Keys, StretchedTick, Tick, decode, encode
 from kuglice_client.clock import Clock
 from kuglice_client.outbox import Outbox
+from kuglice_client.pinging import EVERY_SECONDS, FIRST, FIRST_EVERY_SECONDS
 from kuglice_server.counters import Counters
 from kuglice_server.intake import Intake
 from kuglice_server.players import Players
@@ -48,7 +49,8 @@ class Played:
 class Simulation:
     """`stream`: whether messages go in one reliable stream, as over tcp, or each for itself.
 
-    `every`: ticks from one input to the next, on average. `server_lag`: seconds that tick n is late.
+    `every`: ticks from one input to the next, on average. `server_lag`: seconds that tick n is late. `first_trip`:
+    the round trip that is known at first. `queue`: seconds that a tick waits for a state that is sent before it.
     """
 
     def __init__(
@@ -60,6 +62,7 @@ class Simulation:
         input_delay: int = 0,
         server_lag: Callable[[int], float] = lambda _: 0.0,
         first_trip: float | None = None,
+        queue: Callable[[float], float] = lambda _: 0.0,
     ) -> None:
         scene = small_arena()
         players = Players(scene, grace=300)
@@ -70,7 +73,7 @@ class Simulation:
         self._ticks: list[StretchedTick] = []
         self._up, self._down = Line(conditions, 0), Line(conditions, 1)
         self._stream, self._every, self._input_delay = stream, every, input_delay
-        self._lag = server_lag
+        self._lag, self._queue = server_lag, queue
         self._random = random.Random(conditions.seed)
         self._events: list[tuple[float, int, Callable[[float], None]]] = []
         self._order = count()
@@ -99,7 +102,9 @@ class Simulation:
     def run(self, seconds: float) -> Played:
         self._at(PHASE, self._tick)
         self._at(self._first_trip, self._turn)
-        self._at(2.0, self._ping)
+        for ping in range(FIRST):
+            self._at(self._first_trip + ping * FIRST_EVERY_SECONDS, self._ping)
+        self._at(self._first_trip + EVERY_SECONDS, self._ping_again)
         while self._events and self._events[0][0] < seconds:
             at, _, what = heapq.heappop(self._events)
             what(at)
@@ -120,7 +125,7 @@ class Simulation:
         world.step(records)
         self._ticks = [*self._ticks[1 - TOLD :], StretchedTick(number, records, None)]
         data = encode(Tick.of(EPOCH, self._ticks, acks))
-        self._send(self._down, now, len(data), lambda at: self._hear(data, at))
+        self._send(self._down, now + self._queue(now), len(data), lambda at: self._hear(data, at))
         due = PHASE + world.tick / RATE
         self._at(max(now, due + self._lag(world.tick)), self._tick)
 
@@ -171,4 +176,7 @@ class Simulation:
         if there and back:
             trip = there[0] + back[0] - 2 * now
             self._at(now + trip, lambda _: self.played.clock.answered(trip))
-        self._at(now + 2.0, self._ping)
+
+    def _ping_again(self, now: float) -> None:
+        self._ping(now)
+        self._at(now + EVERY_SECONDS, self._ping_again)

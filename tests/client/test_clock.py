@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from client.simulated_link import RATE, TURN_SECONDS, Played, Simulation
 from kuglice.lab.network.conditions import Conditions
 from kuglice_client.clock import (
+    FALL_SECONDS,
     FIRST_JITTER_TRIPS,
     REPEAT_TICKS,
     REPORTS,
@@ -87,14 +88,45 @@ def test_an_input_delay_takes_the_place_of_lead():
 
 
 def test_a_lead_too_long_is_given_up_at_2_percent():
-    """The first round trip that was measured held a whole snapshot."""
+    settled = round(SETTLING_SECONDS * RATE) + 1
     one = clock(round_trip=0.3)
     for n in range(600):
         one.heard(n + 1, n / RATE)
         one.target(n / RATE)
-        one.answered(0.0)
-    assert one.lead == pytest.approx((1 + FIRST_JITTER_TRIPS) * 0.3 * RATE + 1.5 - 600 * SLEW, abs=0.5)
+        if n >= settled:
+            one.answered(0.0)
+    slewed = (600 - settled) * SLEW
+    assert one.lead == pytest.approx((1 + FIRST_JITTER_TRIPS) * 0.3 * RATE + 1.5 - slewed, abs=0.5)
     assert one.pace == pytest.approx(1 - SLEW)
+
+
+@pytest.mark.parametrize("stream", [False, True])
+@pytest.mark.parametrize("round_trip", [0.15, 0.3])
+def test_a_lead_too_long_from_the_start_is_given_up_soon(round_trip, stream):
+    """A segment was lost when it was asked for the first time; half a minute went by with half a second of lead."""
+    link = Conditions(round_trip=round_trip, jitter=0.2, seed=3)
+    first_trip = round_trip + 0.3
+    right, held_up = (
+        Simulation(link, stream=stream, first_trip=trip).run(first_trip + 1.5)
+        for trip in (round_trip, first_trip)
+    )
+    assert held_up.clock.lead == pytest.approx(right.clock.lead, abs=FALL_SECONDS * RATE)
+    ticks = [tick for _, tick in held_up.turns]
+    assert ticks == sorted(ticks), "what was shown is not taken back"
+    assert min(held_up.early) >= 0
+    assert held_up.clock.snaps == 0
+
+
+@pytest.mark.parametrize("stream", [False, True])
+def test_what_queues_behind_a_state_at_the_start_is_not_taken_for_jitter(stream):
+    """Until the state that was asked for is here and for a while after, ticks are late that never will be again."""
+    link = Conditions(round_trip=0.15, jitter=0.2, seed=3)
+    free, queued = (
+        Simulation(link, stream=stream, queue=lambda now, most=most: max(0.0, most - 0.5 * now)).run(4.0)
+        for most in (0.0, 0.5)
+    )
+    assert queued.clock.lead == pytest.approx(free.clock.lead, abs=3.0)
+    assert queued.clock.jitter == pytest.approx(free.clock.jitter, abs=0.02)
 
 
 def test_the_worst_report_counts_from_the_lead_that_its_input_was_made_with():

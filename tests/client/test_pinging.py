@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import threading
 import time
 
@@ -19,7 +20,7 @@ from kuglice.protocol import (
     server_configuration,
 )
 from kuglice_client.link import Link
-from kuglice_client.pinging import EVERY_SECONDS, Pinging
+from kuglice_client.pinging import EVERY_SECONDS, FIRST, FIRST_EVERY_SECONDS, Pinging
 
 EPOCH = 7
 KEYS = Keys("asked")
@@ -60,7 +61,6 @@ def asked(request):
 def test_a_yes_takes_as_long_as_a_no_and_only_one_question_is_under_way(asked):
     server, link = asked
     pinging = Pinging(link, KEYS, epoch=EPOCH, who=None, now=100.0)
-    assert pinging.turn(100.0 + 0.9 * EVERY_SECONDS, 5) is None
     assert pinging.turn(100.0 + EVERY_SECONDS, -1) is None, "there is no tick to ask about yet"
     began = 100.0 + EVERY_SECONDS
     assert pinging.turn(began, 5) is None
@@ -75,7 +75,25 @@ def test_a_yes_takes_as_long_as_a_no_and_only_one_question_is_under_way(asked):
         time.sleep(0.002)
     assert trip == pytest.approx(0.75)
     assert server.questions == [TickRange(epoch=EPOCH, first=5, end=6)]
-    assert pinging.turn(began + 0.9 * EVERY_SECONDS, 8) is None
+
+
+def test_the_first_questions_come_in_quick_succession_and_the_others_now_and_then(asked):
+    server, link = asked
+    server.release.set()
+    pinging = Pinging(link, KEYS, epoch=EPOCH, who=None, now=0.0)
+    asked_at, now, until = [], 0.0, time.monotonic() + DEADLINE_SECONDS
+    while len(asked_at) < FIRST + 2 and time.monotonic() < until:
+        if pinging.turn(now, 5) is not None:
+            # Of virtual time none goes by until there is an answer: it was asked just now.
+            asked_at.append(now)
+            now += 0.51 * FIRST_EVERY_SECONDS
+        elif pinging.idle:
+            now += 0.51 * FIRST_EVERY_SECONDS
+        else:
+            time.sleep(0.002)
+    waits = [late - soon for soon, late in itertools.pairwise(asked_at)]
+    assert waits[: FIRST - 1] == pytest.approx([FIRST_EVERY_SECONDS] * (FIRST - 1), rel=0.03)
+    assert waits[FIRST - 1 :] == pytest.approx([EVERY_SECONDS] * 2, rel=0.03)
 
 
 def test_silence_measures_nothing_and_the_next_question_comes_in_its_time(asked):

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import threading
+import time
+from collections.abc import Callable
 from typing import Any
 
 import zenoh
@@ -19,7 +21,7 @@ POLL_SECONDS = 0.001
 
 
 class Asked:
-    """One query under way."""
+    """One query under way. `took`: told the seconds until the first reply."""
 
     def __init__(
         self,
@@ -29,11 +31,14 @@ class Asked:
         *,
         traffic: Traffic,
         timeout: float = 5.0,
+        took: Callable[[float], object] = lambda seconds: None,
     ) -> None:
         self.refused = False
         """Whether it is the server that said no, and not the network."""
         self._key = key
         self._traffic = traffic
+        self._took = took
+        self._asked_at = time.monotonic()
         self._replies: list[bytes] = []
         self._handler: Any = session.get(
             key,
@@ -62,6 +67,8 @@ class Asked:
             if reply.err is not None:
                 self.refused, reason = _reason(reply.err.payload.to_bytes())
                 raise JoinError(f"{self._key}: {reason}")
+            if not self._replies:
+                self._took(time.monotonic() - self._asked_at)
             data = reply.ok.payload.to_bytes()
             self._traffic.received["joining"] += len(data)
             self._replies.append(data)

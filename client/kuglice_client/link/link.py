@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import math
 import threading
 import time
 from collections.abc import Iterator
@@ -51,6 +52,8 @@ class Link:
         self.endpoints = ", ".join(connect)
         self.traffic = Traffic()
         self.malformed = 0
+        self.quickest_answer = math.inf
+        """Seconds, of all that was asked over this session: the way there and back takes no longer."""
         self.wants_datagrams = any(map(wants_datagrams, connect))
         self._configuration = client_configuration(connect, timeout=1.0, reconnect=False)
         self.session = Opening(self._configuration).wait(deadline, stop)
@@ -105,7 +108,9 @@ class Link:
 
     def ask(self, key: str, request: Message | None, *, timeout: float = 5.0) -> Asked:
         """Ask the server; the answer comes later, or none after `timeout` seconds."""
-        return Asked(self.session, key, request, traffic=self.traffic, timeout=timeout)
+        return Asked(
+            self.session, key, request, traffic=self.traffic, timeout=timeout, took=self._note_answer
+        )
 
     def send(self, message: ClientInputs) -> None:
         """Put inputs on the key that `show` named; what is lost is sent again until acknowledged."""
@@ -139,6 +144,7 @@ class Link:
         self._opening = None
         old, declared = self.session, [one for one in self._declared if one is not self._goodbye]
         self.session, self._declared, self._goodbye = session, [], None
+        self.quickest_answer = math.inf
         if self._ticks is not None:
             self.listen(self._keys, snapshots=self._snapshots is not None)
         if self._who is not None:
@@ -153,6 +159,9 @@ class Link:
         if self._opening is not None:
             self._opening.end()
         return close_session(self.session, reversed(self._declared), timeout=timeout)
+
+    def _note_answer(self, seconds: float) -> None:
+        self.quickest_answer = min(self.quickest_answer, seconds)
 
     def _subscribe(self, key: str, ring: int) -> Samples:
         subscriber = self.session.declare_subscriber(key, zenoh.handlers.RingChannel(ring))

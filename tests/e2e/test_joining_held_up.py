@@ -1,0 +1,51 @@
+"""The answers of a join were held up by two seconds, as lost segments do, and taken for how long the way is.
+
+The clock wanted to be three seconds ahead: that is more than is ever predicted, so that entering waited for its own
+limit of five seconds, and then half a minute went by with seconds of lead.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from dataclasses import replace
+
+import pytest
+
+from kuglice import scenes
+from kuglice.processes import free_port
+from kuglice.protocol import Keys
+from kuglice_client import Client
+from kuglice_client.replica import Replica
+from kuglice_client.screen import Screen
+from kuglice_client.settings import ClientSettings
+from kuglice_client.totals import Totals
+
+HELD_UP_SECONDS = 2.0
+RATE = 60.0
+
+
+@pytest.mark.timeout(120)
+def test_a_join_whose_answers_were_held_up_asks_once_more_before_it_runs_ahead(start, tmp_path):
+    scenes.arena(players=4).save(tmp_path / "arena.toml")
+    endpoint = f"tcp/127.0.0.1:{free_port()}"
+    server = start("server", tmp_path / "arena.toml", "--listen", endpoint, "--json")
+    settings = ClientSettings(connect=(endpoint,), name="ana", wait=30.0)
+    with Client(settings) as client:
+        joined = replace(client.replica.joined, round_trip=HELD_UP_SECONDS)
+        again = Replica(
+            joined,
+            client.link,
+            Keys(joined.about.world),
+            settings,
+            screen=Screen(),
+            study=None,
+            totals=Totals(),
+            now=time.monotonic(),
+        )
+        again.enter(ignored=set(), deadline=time.monotonic() + 30.0, stop=threading.Event())
+        assert again.clock.round_trip < HELD_UP_SECONDS
+        assert again.clock.wanted_lead < HELD_UP_SECONDS * RATE
+        assert again.prediction.world.tick <= again.follower.world.tick + again.clock.wanted_lead + RATE
+    server.signal(2)
+    server.figures()
