@@ -91,7 +91,10 @@ class DivergedError(StepError):
 
 
 class EventLimitError(StepError):
-    """A tick with more collisions than the limit."""
+    """A tick with more collisions than the limit.
+
+    Sweeps over contacts at rest count as collisions, so that a dense pile that loses energy can reach it too.
+    """
 
 
 class BudgetError(StepError):
