@@ -81,7 +81,7 @@ class Server(Closing):
             )
             undo.callback(close_session, self._session, ())
             if settings.connect:
-                refuse_rival(self._session, self._keys, settings.connect)
+                refuse_rival(self._keys, settings.connect)
             # Not before the address is ours: what is there already may be the recording of the server that has it.
             self._record = Record(settings.record, self.world) if settings.record is not None else None
             if self._record is not None:
