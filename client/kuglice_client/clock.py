@@ -1,12 +1,12 @@
 """Which tick it is: where the stream is now, and how far ahead of it this client runs.
 
-The stream's phase is the earliest arrival of the last ones: delay only ever adds. The lead over it is what the
-server's own reports of how early each input came ask for: with each input goes the lead that it was made with, so
+Where the stream is, its phase says. The lead over it is what the server's own reports of how early each input came ask for: with each input goes the lead that it was made with, so
 that a report says what lead would have been just enough, however much the clock has moved since. The worst of the
 last reports counts. Until there are enough of them, round trip and jitter of the stream stand in: for who acts
 seldom they always do.
 
-What comes of it moves at 0.98 to 1.02 times the server's rate; it jumps only on joining and after a long stall, and
+What comes of it moves at 0.98 to 1.02 times the server's rate, or slower where the server is too slow for its rate,
+at 0.98 times what it makes: one that keeps its rate again is followed at once. It jumps only on joining and after a long stall, and
 within the two seconds after that: what is measured then may have been held up by a lost segment, or by a state that
 fills the link, and a lead that is too long by a second would take a minute to go.
 """
@@ -14,6 +14,8 @@ fills the link, and a lead that is too long by a second would take a minute to g
 from __future__ import annotations
 
 from collections import deque
+
+from kuglice_client.phase import Phase
 
 __all__ = ["Clock"]
 
@@ -33,7 +35,6 @@ FIRST_JITTER_TRIPS = 0.5
 """Round trips that one may vary by, as long as nothing else is known: as RFC 6298 has it."""
 REPORTS = 256
 REPORT_SECONDS = 60.0
-ARRIVALS = 256
 TRIPS = 8
 JITTER_QUANTILE = 0.95
 WORST_QUANTILE = 0.99
@@ -61,8 +62,7 @@ class Clock:
         self._input_delay = input_delay
         self._heard_at = now
         self._trips: deque[float] = deque([round_trip], maxlen=TRIPS)
-        self._origins: deque[float] = deque([now - tick / rate], maxlen=ARRIVALS)
-        self._origin = self._origins[0]
+        self._phase = Phase(rate=rate, tick=tick, now=now)
         self._needed: deque[tuple[float, float]] = deque(maxlen=REPORTS)
         self._resumed_at = self._counted_since = now
         self._moved_to = now
@@ -77,7 +77,7 @@ class Clock:
     @property
     def lead(self) -> float:
         """Ticks that the client runs ahead of the stream as it hears it."""
-        return self._wanted_lead if self._at is None else self._last - self._stream(self._moved_to)
+        return self._wanted_lead if self._at is None else self._last - self._phase.tick(self._moved_to)
 
     @property
     def wanted_lead(self) -> float:
@@ -92,7 +92,7 @@ class Clock:
     @property
     def jitter(self) -> float:
         """Seconds after the earliest possible moment by which 95 % of the tick messages came."""
-        return self._late(JITTER_QUANTILE)
+        return self._phase.late(JITTER_QUANTILE)
 
     def answered(self, round_trip: float) -> None:
         """A query took that many seconds."""
@@ -106,25 +106,25 @@ class Clock:
 
     def heard(self, next_tick: int, now: float) -> None:
         """The stream told everything before `next_tick`, just now."""
-        origin = now - next_tick / self._rate
+        behind = self._phase.behind(next_tick, now)
         silent = now - self._heard_at > STALL_SECONDS
-        if silent or origin - self._origin > STALL_SECONDS:
+        if silent or behind > STALL_SECONDS:
             self.snaps += not self._jump
             self._jump = True
             self._counted_since = now
             self._needed.clear()
         # What has waited, for us to join or for the link to return, says nothing about jitter.
         if self._jump:
-            self._origins.clear()
-        elif self._settling(now) and origin < self._origin:
-            kept = [one for one in self._origins if one <= origin + QUEUED_SECONDS]
-            if len(kept) < len(self._origins):
-                self._origins = deque(kept, maxlen=ARRIVALS)
-                # Nor does the lead over a stream that was late by so much say what lead is needed.
-                self._counted_since = now
-                self._needed.clear()
-        self._origins.append(origin)
-        self._origin = min(self._origins)
+            self._phase.forget()
+        elif (
+            self._settling(now)
+            and behind < 0.0
+            and self._phase.forget_later(next_tick, now, seconds=QUEUED_SECONDS)
+        ):
+            # Nor does the lead over a stream that was late by so much say what lead is needed.
+            self._counted_since = now
+            self._needed.clear()
+        self._phase.heard(next_tick, now)
         self._heard_at = now
         self._want(now)
 
@@ -144,12 +144,13 @@ class Clock:
         # Without news the clock does not run away: the stream may have stopped.
         until = max(self._moved_to, min(now, self._heard_at + STALL_SECONDS))
         passed = (until - self._moved_to) * self._rate
+        made = (until - self._moved_to) * self._phase.rate
         self._moved_to = until
-        wanted = self._stream(until) + self._wanted_lead
+        wanted = self._phase.tick(until) + self._wanted_lead
         if self._at is None or self._jump:
             self._at, self._jump, self._resumed_at = wanted, False, until
         else:
-            slowest, fastest = self._at + (1 - SLEW) * passed, self._at + (1 + SLEW) * passed
+            slowest, fastest = self._at + (1 - SLEW) * made, self._at + (1 + SLEW) * passed
             if self._settling(until):
                 fastest = max(wanted, fastest)
                 slowest = wanted if self._at - wanted > FALL_SECONDS * self._rate else slowest
@@ -162,13 +163,6 @@ class Clock:
     def _settling(self, now: float) -> bool:
         return now - self._resumed_at < SETTLING_SECONDS
 
-    def _stream(self, now: float) -> float:
-        return (now - self._origin) * self._rate
-
-    def _late(self, quantile: float) -> float:
-        late = sorted(origin - self._origin for origin in self._origins)
-        return late[int(quantile * (len(late) - 1))]
-
     def _want(self, now: float) -> None:
         while self._needed and now - self._needed[0][0] > REPORT_SECONDS:
             self._needed.popleft()
@@ -177,8 +171,8 @@ class Clock:
         self._wanted_lead = max(0.0, needed if full else max(needed, self._guessed_lead()))
 
     def _guessed_lead(self) -> float:
-        jitter = self._late(WORST_QUANTILE)
-        if len(self._origins) < ARRIVALS:
+        jitter = self._phase.late(WORST_QUANTILE)
+        if not self._phase.known:
             # Until the stream has had the time to show how much it varies, and how long losses hold it up.
             trips = RETRANSMISSION_TRIPS if self._in_order else FIRST_JITTER_TRIPS
             jitter = max(jitter, trips * self.round_trip)

@@ -15,6 +15,7 @@ from kuglice_client.clock import (
     FIRST_JITTER_TRIPS,
     REPEAT_TICKS,
     REPORTS,
+    RETRANSMISSION_TRIPS,
     SAFETY_TICKS,
     SETTLING_SECONDS,
     SLEW,
@@ -230,4 +231,33 @@ def test_a_stream_that_falls_back_for_good_is_followed():
     played = Simulation(link, server_lag=lambda n: 0.2 if n >= 300 else 0.0).run(SECONDS)
     assert played.clock.snaps == 0
     assert played.clock.lead == pytest.approx(0.02 * RATE + 1.5, abs=1.5)
+    assert played.late_per_1000 < 5
+
+
+def falls_back(ticks_per_second: float):
+    """How late each tick is of a server that makes so many per second."""
+    return lambda tick: tick * (1 / ticks_per_second - 1 / RATE)
+
+
+@pytest.mark.parametrize("made", [59.0, 57.0, 50.0, 30.0])
+@pytest.mark.parametrize("round_trip", [0.0, 0.15])
+@pytest.mark.parametrize("stream", [False, True], ids=["datagrams", "stream"])
+def test_a_server_that_is_too_slow_all_the_time_is_followed_at_its_own_rate(made, round_trip, stream):
+    """Regression: at 57 ticks per second the lead grew without end, until every input came too early to be taken."""
+    bad = round_trip > 0
+    link = Conditions(round_trip=round_trip, jitter=0.2 * bad, loss=0.02 * bad)
+    played = Simulation(link, stream=stream, server_lag=falls_back(made)).run(2 * SECONDS)
+    last = played.leads[len(played.leads) // 2 :]
+    assert max(last) < RATE * 2 * (1 + RETRANSMISSION_TRIPS * stream) * round_trip + 3
+    assert max(played.early) < RATE, "a second is too early by much"
+    assert played.late_per_1000 < 5
+
+
+def test_a_server_that_keeps_its_rate_again_is_met_again():
+    made, slow = 50.0, 600
+    lag = falls_back(made)
+    link = Conditions(round_trip=0.15, jitter=0.2, loss=0.02)
+    played = Simulation(link, server_lag=lambda tick: lag(min(tick, slow))).run(2 * SECONDS)
+    assert played.clock.snaps == 0
+    assert played.clock.lead == pytest.approx(RATE * 0.15 * 1.2 + REPEAT_TICKS + 1, abs=2)
     assert played.late_per_1000 < 5
