@@ -38,12 +38,13 @@ def test_a_join_whose_answers_were_held_up_asks_once_more_before_it_runs_ahead(s
             client.link,
             Keys(joined.about.world),
             settings,
+            who=None,
             screen=Screen(),
             study=None,
             totals=Totals(),
             now=time.monotonic(),
         )
-        again.enter(ignored=set(), deadline=time.monotonic() + 30.0, stop=threading.Event())
+        again.enter(deadline=time.monotonic() + 30.0, stop=threading.Event())
         assert again.clock.round_trip < HELD_UP_SECONDS
         assert again.clock.wanted_lead < HELD_UP_SECONDS * RATE
         assert again.prediction.world.tick <= again.follower.world.tick + again.clock.wanted_lead + RATE

@@ -20,11 +20,13 @@ class Interrupt(importlib.abc.MetaPathFinder):
 
 sys.meta_path.insert(0, Interrupt())
 """
+HEEDED = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+"""As in a terminal: what a script starts in the background ignores interrupts, and so do the tests within."""
 RUN = "from kuglice.cli import main; print('here', flush=True); main()"
 
 
 def command(*words: str, before: str = "") -> subprocess.Popen[str]:
-    code = [sys.executable, "-c", before + RUN, *words]
+    code = [sys.executable, "-c", HEEDED + before + RUN, *words]
     return subprocess.Popen(code, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
@@ -32,8 +34,11 @@ def command(*words: str, before: str = "") -> subprocess.Popen[str]:
     "module", ["kuglice.cli.app", "typer", "numpy", "zenoh", "kuglice.scene", "kuglice_server.server"]
 )
 def test_an_interrupt_in_the_midst_of_an_import_ends_quietly_with_130(module):
-    process = command("server", "cradle", before=SIGNAL_ON_IMPORT.format(module=module))
-    assert process.communicate(timeout=60) == ("here\n", "")
+    with command("server", "cradle", before=SIGNAL_ON_IMPORT.format(module=module)) as process:
+        try:
+            assert process.communicate(timeout=60) == ("here\n", "")
+        finally:
+            process.kill()
     assert process.returncode == 130
 
 
