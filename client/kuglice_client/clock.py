@@ -1,14 +1,14 @@
 """Which tick it is: where the stream is now, and how far ahead of it this client runs.
 
-Where the stream is, its phase says. The lead over it is what the server's own reports of how early each input came ask for: with each input goes the lead that it was made with, so
-that a report says what lead would have been just enough, however much the clock has moved since. The worst of the
-last reports counts. Until there are enough of them, round trip and jitter of the stream stand in: for who acts
-seldom they always do.
+Where the stream is, its phase says. The lead over it is what the server's own reports of how early each input came ask
+for: with each input goes the lead that it was made with, so that a report says what lead would have been just enough,
+however much the clock has moved since. The worst of the last reports counts. Until there are enough of them, round
+trip and jitter of the stream stand in: for who acts seldom they always do.
 
-What comes of it moves at 0.98 to 1.02 times the server's rate, or slower where the server is too slow for its rate,
-at 0.98 times what it makes: one that keeps its rate again is followed at once. It jumps only on joining and after a long stall, and
-within the two seconds after that: what is measured then may have been held up by a lost segment, or by a state that
-fills the link, and a lead that is too long by a second would take a minute to go.
+What comes of it moves at 0.98 to 1.02 times the server's rate, or slower where the server is too slow for its rate: at
+0.98 times what it makes, while one that keeps its rate again is followed at once. It jumps only on joining and after a
+long stall, and within the two seconds after that: what is measured then may have been held up by a lost segment, or by
+a state that fills the link, and a lead that is too long by a second would take a minute to go.
 """
 
 from __future__ import annotations

@@ -14,7 +14,7 @@ __all__ = ["Phase"]
 
 ARRIVALS = 256
 PARTS = 4
-"""Of the last arrivals, in order of time: where a server falls back, the earliest of each is later than the last one's."""
+"""Of the last arrivals, in order of time: where a server falls back, the earliest of each comes later and later."""
 LEAST_ARRIVALS = 6 * PARTS
 RISE_SECONDS = 0.01
 """From one part to the next. What is less, delays that vary may feign."""
@@ -86,7 +86,7 @@ class Phase:
         return [origin - self.drift * at for at, origin in self._arrivals]
 
     def _least_rise(self) -> float:
-        """Seconds per second, the least from one part to the next: a stall is one step. 0 if it is too small to tell."""
+        """Seconds per second, the least from one part to the next: a stall is one step. 0 if too small to tell."""
         if len(self._arrivals) < LEAST_ARRIVALS:
             return 0.0
         size = len(self._arrivals) // PARTS
