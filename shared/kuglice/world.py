@@ -32,7 +32,8 @@ class World:
     Raises LimitError for another number.
 
     Arrays that properties return are copies in id order, safe to keep; `view()` lends the memory itself.
-    Stepping releases the GIL; one world is not to be stepped from two threads at once.
+    Stepping releases the GIL; one world is not to be stepped from two threads at once, nor looked at by one while
+    another steps it: that raises RuntimeError.
     """
 
     __slots__ = ("_core", "_model", "_scene")
