@@ -10,7 +10,7 @@ KugliceError
 ├── LentError                 a change to a world whose arrays are lent
 ├── StepError                 a tick that cannot be made; the world stays at its last whole one
 │   ├── DivergedError         a position or velocity that is no longer finite
-│   ├── EventLimitError       more collisions in one tick than the limit
+│   ├── EventLimitError       more collisions, and sweeps of contacts at rest, in one tick than the limit
 │   └── BudgetError           more work in one tick than the caller gave it
 ├── ReplayError               a replay or study file that is damaged, or not one
 ├── ProtocolError             a message that is damaged, too large, or of another version

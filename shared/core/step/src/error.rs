@@ -38,6 +38,20 @@ pub enum Error {
     },
 }
 
+/// A number as a message shows it: with an exponent where it would be a row of zeros.
+pub(crate) struct Shown(pub f64);
+
+impl fmt::Display for Shown {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let size = self.0.abs();
+        if size == 0.0 || (1e-4..1e6).contains(&size) || !size.is_finite() {
+            write!(f, "{}", self.0)
+        } else {
+            write!(f, "{:e}", self.0)
+        }
+    }
+}
+
 impl Error {
     /// Name of the class that stands for this error in `kuglice.errors`.
     #[must_use]
@@ -82,7 +96,9 @@ impl fmt::Display for Error {
                 };
                 write!(
                     f,
-                    "tick {tick}: more than {limit} collisions in one tick, the last of {what} {time} s into it"
+                    "tick {tick}: more than {limit} collisions, and sweeps over contacts at rest, in one tick, the last of {what} {} s \
+                     into it",
+                    Shown(*time)
                 )
             }
         }
@@ -90,3 +106,43 @@ impl fmt::Display for Error {
 }
 
 impl std::error::Error for Error {}
+
+#[cfg(test)]
+mod tests {
+    use super::Error;
+    use crate::{NewBall, Vec2};
+
+    #[test]
+    fn tiny_and_huge_numbers_are_shown_with_an_exponent() {
+        let ball = |mass| NewBall {
+            position: Vec2::new(0.0, 0.0),
+            velocity: Vec2::new(0.0, 0.0),
+            radius: 1.0,
+            mass,
+        };
+        for (mass, shown) in [
+            (5e-320, "mass is 5e-320,"),
+            (-1e300, "mass is -1e300,"),
+            (0.0, "mass is 0,"),
+            (-2.5, "mass is -2.5,"),
+        ] {
+            let told = ball(mass).check().unwrap_err().to_string();
+            assert!(told.contains(shown), "{told}");
+        }
+    }
+
+    #[test]
+    fn a_time_within_a_tick_is_shown_briefly() {
+        let at = |time| {
+            Error::EventLimit {
+                tick: 3,
+                pair: (1, 1),
+                time,
+                limit: 9,
+            }
+            .to_string()
+        };
+        assert!(at(2.5e-12).ends_with("the last of ball 1 and a wall 2.5e-12 s into it"));
+        assert!(at(0.0125).ends_with("0.0125 s into it"));
+    }
+}

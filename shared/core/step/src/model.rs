@@ -2,6 +2,7 @@
 
 use crate::broadphase::{self, Broadphase, Settings};
 use crate::contacts::{self, Contacts};
+use crate::error::Shown;
 use crate::integrator::{self, Integrator};
 use crate::{Error, Rules};
 
@@ -65,7 +66,8 @@ impl Model {
         }
         if let Some(size) = smallest_node.filter(|size| !(size.is_finite() && *size > 0.0)) {
             return Err(Error::Model(format!(
-                "smallest_node is {size}, it must be above 0 and finite"
+                "smallest_node is {}, it must be above 0 and finite",
+                Shown(size)
             )));
         }
         Ok(Model {

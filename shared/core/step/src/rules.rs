@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::codec::{Reader, Writer};
+use crate::error::Shown;
 use crate::force::{self, Force};
 use crate::{Error, State};
 
@@ -42,12 +43,14 @@ impl Rules {
         }
         if !(0.0..=1.0).contains(&restitution) {
             return Err(Error::Scene(format!(
-                "restitution is {restitution}, it must be in [0, 1]"
+                "restitution is {}, it must be in [0, 1]",
+                Shown(restitution)
             )));
         }
         if !(tick_rate.is_finite() && tick_rate > 0.0) {
             return Err(Error::Scene(format!(
-                "tick_rate is {tick_rate}, it must be above 0 and finite"
+                "tick_rate is {}, it must be above 0 and finite",
+                Shown(tick_rate)
             )));
         }
         let named = forces

@@ -1,5 +1,6 @@
 //! A ball before it is one of a world.
 
+use crate::error::Shown;
 use crate::{Error, Vec2};
 
 /// A ball that is about to be added.
@@ -30,13 +31,13 @@ impl NewBall {
         if !(self.radius > 0.0 && self.radius.is_finite()) {
             return Err(Error::Scene(format!(
                 "a ball's radius is {}, it must be above 0 and finite",
-                self.radius
+                Shown(self.radius)
             )));
         }
         if !(self.mass > 0.0 && (self.mass.is_normal() || self.mass.is_infinite())) {
             return Err(Error::Scene(format!(
-                "a ball's mass is {}, it must be above 0 (infinite = fixed)",
-                self.mass
+                "a ball's mass is {}, it must be above 0 and not subnormal (infinite = fixed)",
+                Shown(self.mass)
             )));
         }
         Ok(())

@@ -15,6 +15,7 @@ pub use field::{Acceleration, Constant, Field, NoForce, Sum};
 use std::fmt::Debug;
 use std::sync::Arc;
 
+use crate::error::Shown;
 use crate::{Error, State, Vec2};
 
 /// The ball that a force acts on.
@@ -127,7 +128,8 @@ pub fn make(name: &str, numbers: &[f64]) -> Result<Arc<dyn Force>, Error> {
         .find(|(value, _)| !value.is_finite())
     {
         return Err(Error::Scene(format!(
-            "force {name:?}: {what} is {value}, it must be finite"
+            "force {name:?}: {what} is {}, it must be finite",
+            Shown(*value)
         )));
     }
     (kind.make)(numbers)
@@ -138,6 +140,7 @@ fn at_least_zero(force: &str, what: &str, value: f64) -> Result<f64, Error> {
         return Ok(value);
     }
     Err(Error::Scene(format!(
-        "force {force:?}: {what} is {value}, it must be at least 0"
+        "force {force:?}: {what} is {}, it must be at least 0",
+        Shown(value)
     )))
 }

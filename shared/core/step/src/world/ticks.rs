@@ -2,6 +2,7 @@
 
 use super::World;
 use crate::contacts::Substep;
+use crate::error::Shown;
 use crate::force::{Field, HeldNow};
 use crate::{Error, Input, apply};
 
@@ -28,7 +29,8 @@ impl World {
     pub fn step_within(&mut self, inputs: &[Input], dt: Option<f64>, budget: u64) -> Result<(), Error> {
         if let Some(dt) = dt.filter(|dt| !(dt.is_finite() && *dt > 0.0)) {
             return Err(Error::Input(format!(
-                "dt is {dt} s, it must be above 0 and finite"
+                "dt is {} s, it must be above 0 and finite",
+                Shown(dt)
             )));
         }
         let team = self.team.clone();
