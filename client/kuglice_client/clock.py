@@ -101,8 +101,8 @@ class Clock:
 
     def relinked(self, now: float, *, in_order: bool) -> None:
         """The link is another one now: what inputs asked for on the last says nothing of it."""
-        self._in_order, self._counted_since = in_order, now
-        self._needed.clear()
+        self._in_order = in_order
+        self._count_reports_from(now)
 
     def heard(self, next_tick: int, now: float) -> None:
         """The stream told everything before `next_tick`, just now."""
@@ -111,8 +111,7 @@ class Clock:
         if silent or behind > STALL_SECONDS:
             self.snaps += not self._jump
             self._jump = True
-            self._counted_since = now
-            self._needed.clear()
+            self._count_reports_from(now)
         # What has waited, for us to join or for the link to return, says nothing about jitter.
         if self._jump:
             self._phase.forget()
@@ -122,8 +121,7 @@ class Clock:
             and self._phase.forget_later(next_tick, now, seconds=QUEUED_SECONDS)
         ):
             # Nor does the lead over a stream that was late by so much say what lead is needed.
-            self._counted_since = now
-            self._needed.clear()
+            self._count_reports_from(now)
         self._phase.heard(next_tick, now)
         self._heard_at = now
         self._want(now)
@@ -159,6 +157,10 @@ class Clock:
             self._at = at
         self._last = max(self._last, self._at)
         return self._last
+
+    def _count_reports_from(self, now: float) -> None:
+        self._counted_since = now
+        self._needed.clear()
 
     def _settling(self, now: float) -> bool:
         return now - self._resumed_at < SETTLING_SECONDS

@@ -24,7 +24,7 @@ from kuglice.protocol import (
 )
 from kuglice_client.link import Asked, NotYetError, Waiting
 
-__all__ = ["Joined", "Who", "find_world", "join"]
+__all__ = ["Joined", "Who", "arrival", "find_world", "join"]
 
 SNAPSHOT_SECONDS = 30.0
 """For a state to arrive: a large one takes its time on a thin link."""
@@ -80,6 +80,12 @@ def join(waiting: Waiting, keys: Keys, who: Who | None) -> Joined:
     server.
     """
     return waiting.until_done(lambda: _attempt(waiting, keys, who))
+
+
+def arrival(who: Who) -> ArrivalRequest:
+    """The question how it stands with that name and session, whatever run of the server hears it."""
+    name, session = who
+    return ArrivalRequest(epoch=ANY_EPOCH, name=name, session=session)
 
 
 def _attempt(waiting: Waiting, keys: Keys, who: Who | None) -> Joined:
@@ -159,6 +165,4 @@ class _Admission:
             self._asked = self._ask()
 
     def _ask(self) -> Asked:
-        name, session = self._who
-        request = ArrivalRequest(epoch=ANY_EPOCH, name=name, session=session)
-        return self._waiting.link.ask(self._key, request, timeout=self._waiting.answer_seconds)
+        return self._waiting.link.ask(self._key, arrival(self._who), timeout=self._waiting.answer_seconds)

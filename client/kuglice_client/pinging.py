@@ -6,8 +6,8 @@ Who plays asks whether it does; a spectator asks for one tick of the history aga
 from __future__ import annotations
 
 from kuglice.errors import JoinError, ProtocolError
-from kuglice.protocol import ANY_EPOCH, Admission, ArrivalRequest, Keys, TickRange, decode
-from kuglice_client.join import Who
+from kuglice.protocol import Admission, Keys, TickRange, decode
+from kuglice_client.join import Who, arrival
 from kuglice_client.link import Asked, Link
 
 __all__ = ["Pinging"]
@@ -50,6 +50,7 @@ class Pinging:
                 self._asked, self._asked_at = self._ask(tick), now
                 self._first_left = max(0, self._first_left - 1)
             return None
+        answered = True
         try:
             replies = self._asked.poll()
             if replies is None:
@@ -58,20 +59,14 @@ class Pinging:
                 self.admission = decode(replies[0], Admission)
         except JoinError:
             # A no takes as long as a yes; silence measures nothing.
-            refused, self._asked = self._asked.refused, None
-            if not refused:
-                return None
+            answered = self._asked.refused
         except ProtocolError:
-            self._asked = None
-            return None
+            answered = False
         self._asked = None
-        self.answers += 1
-        return now - self._asked_at
+        self.answers += answered
+        return now - self._asked_at if answered else None
 
     def _ask(self, tick: int) -> Asked:
         if self._who is not None:
-            name, session = self._who
-            return self._link.ask(
-                self._keys.status, ArrivalRequest(epoch=ANY_EPOCH, name=name, session=session)
-            )
+            return self._link.ask(self._keys.status, arrival(self._who))
         return self._link.ask(self._keys.history, TickRange(epoch=self._epoch, first=tick, end=tick + 1))

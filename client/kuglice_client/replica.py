@@ -99,9 +99,7 @@ class Replica:
             input_delay=settings.input_delay,
             in_order="udp" not in link.kinds,
         )
-        self._pinging = Pinging(
-            link, keys, epoch=joined.epoch, who=who if joined.number is not None else None, now=now
-        )
+        self._pinging = Pinging(link, keys, epoch=joined.epoch, who=who, now=now)
         self.player = (
             None
             if joined.number is None

@@ -69,7 +69,6 @@ class Answers:
         self._about = about
         self._view = view
         self._status = status
-        self._settled = settled
         self._admission = admission
         self._history = history
         self._arrivals = Arrivals(settled)
@@ -118,8 +117,7 @@ class Answers:
             return _at_once, self._tell_status
         arrival = decode(query.payload.to_bytes(), ArrivalRequest)
         who = arrival.name, arrival.session
-        run = _at_once if self._settled(*who) else partial(self._arrivals.answer, *who)
-        return run, partial(self._tell_admission, *who)
+        return partial(self._arrivals.answer, *who), partial(self._tell_admission, *who)
 
     def _history_route(self, query: zenoh.Query) -> _Route:
         payload = query.payload

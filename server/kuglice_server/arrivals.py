@@ -33,8 +33,8 @@ class _Waiting:
 
 
 class Arrivals:
-    """`settled`: whether that name and session play, or were refused. It is called, and who waits is answered, in a
-    thread of this object's own, which `undeclare` ends.
+    """`settled`: whether that name and session play, or were refused. It is called in any thread; who waits is answered
+    in one of this object's own, which `undeclare` ends.
     """
 
     def __init__(self, settled: Callable[[str, str], bool]) -> None:
@@ -47,7 +47,10 @@ class Arrivals:
         self._thread.start()
 
     def answer(self, name: str, session: str, answer: Callable[[], None]) -> None:
-        """Call `answer` once that is settled, or has taken too long."""
+        """Call `answer` at once if that is settled, else once it is, or has taken too long."""
+        if self._settled(name, session):
+            answer()
+            return
         waiting = _Waiting(name, session, time.monotonic() + SETTLE_SECONDS, answer)
         with self._lock:
             room = not self._over and len(self._waiting) < MOST_WAITING

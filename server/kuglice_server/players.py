@@ -159,13 +159,17 @@ class Players:
     def _next_waiting(self) -> Who | None:
         """The first of those who need wait no longer, taken from the queue."""
         for waiting in self._waiting:
-            holder = self._by_name.get(waiting[0])
-            if holder is not None and holder.present and holder.away_since is not None:
+            if self._is_kept(waiting[0]):
                 # Perhaps the same person at a new start: until the old session is given up.
                 continue
             del self._waiting[waiting]
             return waiting
         return None
+
+    def _is_kept(self, name: str) -> bool:
+        """Whether the session that plays it is away, and waited for."""
+        holder = self._by_name.get(name)
+        return holder is not None and holder.present and holder.away_since is not None
 
     def _dismiss(self, player: Player) -> None:
         player.present, player.away_since = False, None
@@ -189,13 +193,12 @@ class Players:
     def admission(self, name: str, session: str, *, epoch: int) -> Admission:
         """How it stands with that session."""
         player = self.find(name, session)
-        holder = self._by_name.get(name)
         return Admission(
             epoch=epoch,
             number=None if player is None else player.number,
             sequence=0 if player is None else player.sequence,
             refused=self._refused.get((name, session)),
-            kept=player is None and holder is not None and holder.present and holder.away_since is not None,
+            kept=player is None and self._is_kept(name),
         )
 
     def _admit(self, name: str, session: str, world: World) -> Input:
