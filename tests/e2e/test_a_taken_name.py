@@ -8,17 +8,26 @@ from __future__ import annotations
 
 import signal
 
+import pytest
+
 from e2e.processes import until
 
+VIC = ("--name", "vic", "--bot", "orbiter")
 
-def test_who_has_lost_its_name_to_another_says_so_and_ends(start, endpoint, scene):
+
+@pytest.fixture
+def given_up(start, endpoint, scene, join):
+    """A server, and a client that is stopped and that the server waits for no more."""
     server = start("server", scene, "--listen", endpoint, "--grace", 0.5, "--json")
-    first = start("client", "--connect", endpoint, "--name", "vic", "--bot", "orbiter", "--json")
-    until(lambda: "joined world" in first.err, what="the first joins")
-    first.signal(signal.SIGSTOP)
-    until(lambda: "vic (client 1) leaves" in server.err, what="the first is given up", seconds=60)
-    second = start("client", "--connect", endpoint, "--name", "vic", "--bot", "orbiter", "--json")
-    until(lambda: "joined world" in second.err, what="the second joins")
+    player = join(*VIC)
+    player.signal(signal.SIGSTOP)
+    until(lambda: "vic (client 1) leaves" in server.err, what="it is given up", seconds=60)
+    return server, player
+
+
+def test_who_has_lost_its_name_to_another_says_so_and_ends(given_up, join):
+    server, first = given_up
+    second = join(*VIC)
     first.signal(signal.SIGCONT)
     assert first.wait() == 2
     assert "the server has given client vic up" in first.err
@@ -31,12 +40,8 @@ def test_who_has_lost_its_name_to_another_says_so_and_ends(start, endpoint, scen
     assert "foreign" not in server.figures()
 
 
-def test_who_was_given_up_and_finds_its_name_free_plays_on(start, endpoint, scene):
-    server = start("server", scene, "--listen", endpoint, "--grace", 0.5, "--json")
-    player = start("client", "--connect", endpoint, "--name", "vic", "--bot", "orbiter", "--json")
-    until(lambda: "joined world" in player.err, what="it joins")
-    player.signal(signal.SIGSTOP)
-    until(lambda: "vic (client 1) leaves" in server.err, what="it is given up", seconds=60)
+def test_who_was_given_up_and_finds_its_name_free_plays_on(given_up):
+    server, player = given_up
     player.signal(signal.SIGCONT)
     until(lambda: server.err.count("vic joins as client 1") == 2, what="it is let in again")
     player.signal(signal.SIGINT)

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import random
 import signal
-import threading
 import time
 
 import pytest
@@ -18,10 +17,9 @@ import zenoh
 import kuglice as kg
 from e2e.processes import free_endpoint, until
 from e2e.raw_client import RawClient
+from e2e.serving import serving
 from kuglice.protocol import Keys, Tick, client_configuration, close_session, encode, open_session
 from kuglice_client import Client, ClientSettings
-from kuglice_server import Server, ServerSettings
-from server.small_arena import small_arena
 
 WORLD = "small"
 KEYS = Keys(WORLD)
@@ -30,14 +28,8 @@ KEYS = Keys(WORLD)
 @pytest.fixture
 def served():
     """An endpoint, and the server there, ticking."""
-    settings = ServerSettings(world=WORLD, listen=(free_endpoint(),))
-    stop = threading.Event()
-    with Server(small_arena(), settings) as server:
-        thread = threading.Thread(target=server.run, args=(stop,))
-        thread.start()
-        yield settings.listen[0], server
-        stop.set()
-        thread.join()
+    with serving(WORLD) as served:
+        yield served
 
 
 @pytest.fixture
