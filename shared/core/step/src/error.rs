@@ -96,8 +96,8 @@ impl fmt::Display for Error {
                 };
                 write!(
                     f,
-                    "tick {tick}: more than {limit} collisions, and sweeps over contacts at rest, in one tick, the last of {what} {} s \
-                     into it",
+                    "tick {tick}: more than {limit} collisions, and sweeps over contacts at rest, in one tick, \
+                     the last of {what} {} s into it",
                     Shown(*time)
                 )
             }
