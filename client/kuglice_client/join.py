@@ -18,6 +18,7 @@ from kuglice.protocol import (
     Admission,
     ArrivalRequest,
     Keys,
+    Payload,
     SnapshotRequest,
     Status,
     decode,
@@ -58,7 +59,7 @@ def find_world(waiting: Waiting) -> str:
     """Name of the only world that is served here. Raises JoinError if there is none, or more than one."""
     link = waiting.link
 
-    def attempt() -> list[bytes]:
+    def attempt() -> list[Payload]:
         try:
             return link.ask(ANY_STATUS, None, timeout=waiting.answer_seconds).wait(waiting.stop)
         except JoinError as error:

@@ -115,7 +115,7 @@ class Answers:
     def _status_route(self, query: zenoh.Query) -> _Route:
         if query.payload is None:
             return _at_once, self._tell_status
-        arrival = decode(query.payload.to_bytes(), ArrivalRequest)
+        arrival = decode(query.payload, ArrivalRequest)
         who = arrival.name, arrival.session
         return partial(self._arrivals.answer, *who), partial(self._tell_admission, *who)
 
@@ -123,7 +123,7 @@ class Answers:
         payload = query.payload
         if payload is None:
             raise ProtocolError("history: a query needs a payload that says which ticks or which snapshot")
-        request = decode(payload.to_bytes(), TickRange, SnapshotRequest)
+        request = decode(payload, TickRange, SnapshotRequest)
         whichever = isinstance(request, SnapshotRequest) and request.epoch == ANY_EPOCH
         if request.epoch != self._epoch and not whichever:
             raise ProtocolError(f"epoch {request.epoch}: this server runs epoch {self._epoch}")

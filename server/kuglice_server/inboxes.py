@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import zenoh
 
-from kuglice.protocol import Keys
+from kuglice.protocol import Keys, Payload
 from kuglice_server.counters import Counters
 
 __all__ = ["Inboxes", "Letter"]
@@ -23,10 +23,10 @@ Who = tuple[str, str]
 
 
 class Letter(NamedTuple):
-    """What one session said; None as `payload`: that it goes."""
+    """What one session said, of whatever size; None as `payload`: that it goes."""
 
     key: str
-    payload: bytes | None
+    payload: Payload | None
 
 
 class Inboxes:
@@ -60,10 +60,9 @@ class Inboxes:
                     # A wildcard speaks for everybody, and nobody may.
                     self._counters.add("foreign")
                     continue
-                payload = sample.payload.to_bytes()
                 self._counters.add("messages_in")
-                self._counters.add("bytes_in", len(payload))
-                yield Letter(key, None if sample.kind == zenoh.SampleKind.DELETE else payload)
+                self._counters.add("bytes_in", len(sample.payload))
+                yield Letter(key, None if sample.kind == zenoh.SampleKind.DELETE else sample.payload)
 
     def undeclare(self) -> None:
         """Give all of them up."""

@@ -13,7 +13,8 @@ Every input has a defined answer:
 - impossible (a spawn where there is no room, or a tick that cannot be made with it): refused when its tick comes, by
   the tick loop, even if it was promised;
 - more than `limits.per_tick` in one tick: the rest waits for the next, in order;
-- malformed: a message that cannot be read is refused as a whole, with the reason, under no sequence number;
+- malformed: a message that cannot be read, or is too large to be looked at, is refused as a whole, with the reason,
+  under no sequence number;
 - a flood: beyond MESSAGES_PER_TICK messages or INPUTS_PER_TICK inputs a tick, counted and not read; beyond
   ANSWERS_PER_TICK answers that no tick message gives by itself, counted and not given; what was lost is sent again;
 - foreign (from nobody who is here, or from a session that does not play its name), or meant for another epoch:
@@ -27,7 +28,7 @@ from collections import Counter, deque
 from kuglice import Scene, World
 from kuglice.errors import InputError, ProtocolError
 from kuglice.inputs import Input, check
-from kuglice.protocol import Ack, ClientInputs, Keys, SentInput, decode
+from kuglice.protocol import Ack, ClientInputs, Keys, Payload, SentInput, decode
 from kuglice_server.counters import Counters
 from kuglice_server.players import Player, Players
 
@@ -75,7 +76,7 @@ class Intake:
         self._acks: deque[tuple[int, list[Ack]]] = deque()
         self._acting: dict[int, list[Ack]] = {}
 
-    def receive(self, key: str, payload: bytes, *, world: World) -> None:
+    def receive(self, key: str, payload: Payload, *, world: World) -> None:
         """One message from the wire; `world` is the state that its tick will begin with. Raises nothing."""
         try:
             name, session = Keys.client_of(key)

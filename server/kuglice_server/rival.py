@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from kuglice.errors import NetworkError, ProtocolError
-from kuglice.protocol import Keys, Status, client_configuration, close_session, decode, open_session
+from kuglice.protocol import Keys, Payload, Status, client_configuration, close_session, decode, open_session
 
 __all__ = ["refuse_rival"]
 
@@ -34,13 +34,13 @@ def _refuse_at(endpoint: str, keys: Keys) -> None:
             if reply.ok is not None:
                 raise NetworkError(
                     f"world {keys.world}: another server serves it at {endpoint} already"
-                    f"{_tick(reply.ok.payload.to_bytes())}; end that one, or give this world another name with --world"
+                    f"{_tick(reply.ok.payload)}; end that one, or give this world another name with --world"
                 )
     finally:
         close_session(session, ())
 
 
-def _tick(answer: bytes) -> str:
+def _tick(answer: Payload) -> str:
     try:
         return f", at tick {decode(answer, Status).tick:,}"
     except ProtocolError:

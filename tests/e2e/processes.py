@@ -67,6 +67,10 @@ class Command:
         return self._folder / f"{self._stem}.{kind}"
 
     @property
+    def pid(self) -> int:
+        return self._process.pid
+
+    @property
     def running(self) -> bool:
         return self._process.poll() is None
 

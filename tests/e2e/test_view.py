@@ -139,7 +139,7 @@ def test_a_hostile_region_is_refused_and_the_view_goes_on(start, endpoint, look,
     wrong = [
         b"",
         b"\xff" * 100,
-        b"\x00" * 2_000_000,
+        b"\x00" * (Region.max_bytes + 1),
         encode(Region(epoch=view.replica.about.epoch, tick=2**61, node=node, balls=b"\0")),
         encode(Region(epoch=view.replica.about.epoch, tick=tick, node=node + 1, balls=b"\0")),
         encode(Region(epoch=view.replica.about.epoch, tick=tick, node=node, balls=b"\xff" * 1000)),

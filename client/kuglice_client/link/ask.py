@@ -10,7 +10,7 @@ from typing import Any
 import zenoh
 
 from kuglice.errors import JoinError, ProtocolError
-from kuglice.protocol import Assembly, Message, Part, Refusal, Whole, decode, decompress, encode
+from kuglice.protocol import Assembly, Message, Part, Payload, Refusal, Whole, decode, decompress, encode
 from kuglice_client.link.traffic import Traffic
 
 __all__ = ["Asked"]
@@ -39,7 +39,7 @@ class Asked:
         self._traffic = traffic
         self._took = took
         self._asked_at = time.monotonic()
-        self._replies: list[bytes] = []
+        self._replies: list[Payload] = []
         self._handler: Any = session.get(
             key,
             zenoh.handlers.FifoChannel(MAX_REPLIES),
@@ -50,7 +50,7 @@ class Asked:
             congestion_control=zenoh.CongestionControl.BLOCK,
         )
 
-    def poll(self) -> list[bytes] | None:
+    def poll(self) -> list[Payload] | None:
         """All replies once the last one is there, None before.
 
         Raises JoinError if refused or not answered.
@@ -65,15 +65,15 @@ class Asked:
             if reply is None:
                 return None
             if reply.err is not None:
-                self.refused, reason = _reason(reply.err.payload.to_bytes())
+                self.refused, reason = _reason(reply.err.payload)
                 raise JoinError(f"{self._key}: {reason}")
             if not self._replies:
                 self._took(time.monotonic() - self._asked_at)
-            data = reply.ok.payload.to_bytes()
-            self._traffic.received["joining"] += len(data)
-            self._replies.append(data)
+            payload = reply.ok.payload
+            self._traffic.received["joining"] += len(payload)
+            self._replies.append(payload)
 
-    def wait(self, stop: threading.Event) -> list[bytes]:
+    def wait(self, stop: threading.Event) -> list[Payload]:
         """The replies, waited for. Raises JoinError, also when `stop` is set meanwhile."""
         while (replies := self.poll()) is None:
             if stop.wait(POLL_SECONDS):
@@ -89,7 +89,7 @@ class Asked:
         """As `wait`, with the parts put together. Raises JoinError if some are missing."""
         return self._assembled(self.wait(stop))
 
-    def _assembled(self, replies: list[bytes]) -> Whole:
+    def _assembled(self, replies: list[Payload]) -> Whole:
         assembly = Assembly()
         try:
             for reply in replies:
@@ -101,9 +101,11 @@ class Asked:
         raise JoinError(f"{self._key}: {len(replies)} parts came, and some are missing")
 
 
-def _reason(payload: bytes) -> tuple[bool, str]:
+def _reason(payload: Payload) -> tuple[bool, str]:
     try:
         return True, decode(payload, Refusal).reason
     except ProtocolError:
+        if len(payload) > Refusal.max_bytes:
+            return False, f"an error of {len(payload)} bytes, at most {Refusal.max_bytes} allowed"
         # Zenoh's own errors, a timeout for one, are plain text.
-        return False, payload[:200].decode("utf-8", "replace")
+        return False, bytes(payload)[:200].decode("utf-8", "replace")

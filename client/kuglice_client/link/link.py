@@ -174,10 +174,9 @@ class Link:
             if str(sample.key_expr) != key:
                 # Put on a wildcard, which no server does.
                 continue
-            data = sample.payload.to_bytes()
-            self.traffic.received[what] += len(data)
+            self.traffic.received[what] += len(sample.payload)
             try:
-                message = decode(data, kind)
+                message = decode(sample.payload, kind)
             except ProtocolError as error:
                 self.malformed += 1
                 if self.malformed == 1:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from kuglice.errors import ProtocolError
-from kuglice.protocol import MAX_REGION_BALLS, Keys, Nodes, Region, ViewAbout, decode
+from kuglice.protocol import MAX_REGION_BALLS, Keys, Nodes, Payload, Region, ViewAbout, decode
 from kuglice_client.view.told import Told
 
 __all__ = ["Hearing"]
@@ -25,9 +25,9 @@ class Hearing:
         self._began = now
         self.packer = about.regions.packer(nodes.box)
 
-    def region(self, key: str, data: bytes, *, now: float) -> Told | None:
+    def region(self, key: str, payload: Payload, *, now: float) -> Told | None:
         """What is told; None if it is of another run of the server. Raises ProtocolError for what cannot be."""
-        message = decode(data, Region)
+        message = decode(payload, Region)
         if message.epoch != self._about.epoch:
             return None
         node = message.node

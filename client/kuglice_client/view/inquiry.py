@@ -7,7 +7,7 @@ import time
 
 from kuglice import _core
 from kuglice.errors import JoinError, ProtocolError
-from kuglice.protocol import Keys, ViewAbout, decode
+from kuglice.protocol import Keys, Payload, ViewAbout, decode
 from kuglice_client.link import Asked, Link, NotYetError, Waiting
 
 __all__ = ["Inquiry"]
@@ -34,7 +34,7 @@ class Inquiry:
         Raises JoinError if there is none in time, or the server speaks or steps otherwise.
         """
 
-        def attempt() -> bytes:
+        def attempt() -> Payload:
             asked = self._link.ask(self._keys.view, None, timeout=waiting.answer_seconds)
             try:
                 return asked.wait(waiting.stop)[0]
@@ -67,7 +67,7 @@ class Inquiry:
         self._asked = None
         return self._read(replies[0])
 
-    def _read(self, reply: bytes) -> ViewAbout:
+    def _read(self, reply: Payload) -> ViewAbout:
         try:
             about = decode(reply, ViewAbout)
         except ProtocolError as error:

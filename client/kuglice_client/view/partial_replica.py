@@ -6,7 +6,7 @@ import math
 
 from kuglice import Model, Scene
 from kuglice.errors import JoinError, KugliceError
-from kuglice.protocol import Holding, Keys, Nodes, Rectangle, ViewAbout, decode
+from kuglice.protocol import Holding, Keys, Nodes, Payload, Rectangle, ViewAbout, decode
 from kuglice_client.correction import Correction
 from kuglice_client.view.clock import ViewClock
 from kuglice_client.view.hearing import Hearing
@@ -88,20 +88,20 @@ class PartialReplica:
         """
         return about.tick - self._newest > self.silence_seconds * about.rate
 
-    def hear(self, key: str, data: bytes, now: float) -> bool:
+    def hear(self, key: str, payload: Payload, now: float) -> bool:
         """Take in a message. Whether it was of this run. Raises ProtocolError for what no server could say."""
         if key == self._keys.holding:
-            message = decode(data, Holding)
+            message = decode(payload, Holding)
             if message.epoch != self.about.epoch:
                 return False
             self._hearing.check_tick(message.tick, now=now)
             self.known.hold(message.tick, message.players, message.held)
             tick = message.tick
         else:
-            told = self._hearing.region(key, data, now=now)
+            told = self._hearing.region(key, payload, now=now)
             if told is None:
                 return False
-            self.interest.note(told.node, len(data))
+            self.interest.note(told.node, len(payload))
             self.updates += self.known.take(told)
             self.balls_told += len(told.id)
             tick = told.tick

@@ -147,11 +147,11 @@ class View(Closing):
         samples = self.subscriptions.samples
         while samples:
             sample = samples.popleft()
-            key, data = str(sample.key_expr), sample.payload.to_bytes()
+            key, payload = str(sample.key_expr), sample.payload
             what = "holding" if key == self._keys.holding else "regions"
-            self.link.traffic.received[what] += len(data)
+            self.link.traffic.received[what] += len(payload)
             try:
-                ours = self.replica.hear(key, data, now)
+                ours = self.replica.hear(key, payload, now)
             except ProtocolError as error:
                 self.malformed += 1
                 if self.malformed == 1:

@@ -3,7 +3,7 @@
 Server and client both speak through this package and through nothing else.
 """
 
-from kuglice.protocol.codec import decode, encode
+from kuglice.protocol.codec import Payload, decode, encode
 from kuglice.protocol.compact import packed_size
 from kuglice.protocol.compression import compress, decompress
 from kuglice.protocol.endpoints import (
@@ -21,6 +21,7 @@ from kuglice.protocol.messages import (
     MAX_INPUTS,
     MAX_REGION_BALLS,
     MAX_TOLD_TICKS,
+    MAX_WHOLE_BYTES,
     PACES,
     PART_BYTES,
     PROTOCOL_VERSION,
@@ -68,6 +69,7 @@ __all__ = [
     "MAX_INPUTS",
     "MAX_REGION_BALLS",
     "MAX_TOLD_TICKS",
+    "MAX_WHOLE_BYTES",
     "PACES",
     "PART_BYTES",
     "PROTOCOL_VERSION",
@@ -85,6 +87,7 @@ __all__ = [
     "Message",
     "Nodes",
     "Part",
+    "Payload",
     "Rectangle",
     "Refusal",
     "Region",

@@ -7,15 +7,18 @@ from collections.abc import Sequence
 from typing import Any, TypeVar
 
 import msgpack
+import zenoh
 from pydantic import ValidationError
 
 from kuglice.errors import ProtocolError
 from kuglice.protocol.messages.envelope import PROTOCOL_VERSION, CompactMessage, Message
 
-__all__ = ["decode", "encode"]
+__all__ = ["Payload", "decode", "encode"]
 
 
 M = TypeVar("M", bound=Message)
+Payload = bytes | zenoh.ZBytes
+"""What came in stays where Zenoh has it until its size is known: `to_bytes` would copy as much as anybody sends."""
 
 _SHORT = reprlib.Repr()
 _SHORT.maxstring = _SHORT.maxother = 80
@@ -38,12 +41,16 @@ def encode(message: Message) -> bytes:
     return data
 
 
-def decode(data: bytes, *kinds: type[M]) -> M:
-    """The message in `data`, which must be one of `kinds`; raises ProtocolError whatever the bytes are."""
+def decode(payload: Payload, *kinds: type[M]) -> M:
+    """The message in `payload`, which must be one of `kinds`; raises ProtocolError whatever the bytes are.
+
+    Of one that is too large nothing is copied.
+    """
     names = " or ".join(repr(kind.kind) for kind in kinds)
     bound = max(kind.max_bytes for kind in kinds)
-    if len(data) > bound:
-        raise ProtocolError(f"message {names}: {len(data)} bytes, at most {bound} allowed")
+    if len(payload) > bound:
+        raise ProtocolError(f"message {names}: {len(payload)} bytes, at most {bound} allowed")
+    data = bytes(payload)
     compact = _compact_kind(data, kinds)
     body = {} if compact is not None else _unpack(data, names)
     kind = compact or next((kind for kind in kinds if _is(kind, body)), None)

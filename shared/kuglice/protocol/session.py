@@ -16,6 +16,7 @@ from kuglice.errors import ProtocolError
 from kuglice.protocol.access import access_control
 from kuglice.protocol.endpoints import DATAGRAMS, as_written, locators, unresolved
 from kuglice.protocol.keys import Keys
+from kuglice.protocol.messages.envelope import MAX_WHOLE_BYTES
 
 __all__ = [
     "LEASE_MS",
@@ -42,6 +43,11 @@ RETRY_MS = 200
 RECEIVING_THREADS = 16
 """A session that ends keeps one of the threads that receive for a round trip. By default there are two of them, and
 with both taken nobody's datagrams are read."""
+MAX_MESSAGE_BYTES = MAX_WHOLE_BYTES + (64 << 10)
+"""Of one that comes in, key and envelope included. Zenoh by itself puts together up to 1 GiB, and a ring keeps that
+many times over. No state needs more, be there ever so many balls: whatever grows with them comes in parts of a batch
+each. A larger one is dropped piece by piece as it comes, untold, and its link goes on.
+"""
 RUNTIME = "ZENOH_RUNTIME"
 """Read by Zenoh when the first session of a process is opened; what the user says there counts."""
 NEVER_MS = 24 * 3600 * 1000
@@ -101,7 +107,11 @@ def _configuration(
         "mode": mode,
         "scouting": {"multicast": {"enabled": False}, "gossip": {"enabled": False}},
         # Shared memory lost data under load, and leaves segments behind when a process is killed.
-        "transport": {"shared_memory": {"enabled": False}, "unicast": {"max_links": LINKS}},
+        "transport": {
+            "shared_memory": {"enabled": False},
+            "unicast": {"max_links": LINKS},
+            "link": {"rx": {"max_message_size": MAX_MESSAGE_BYTES}},
+        },
     }
     if listen:
         configuration["listen"] = {"endpoints": [one for endpoint in listen for one in locators(endpoint)]}
@@ -121,7 +131,7 @@ def _configuration(
             # With any other timeout Zenoh wants all links or none; so it goes on with the one it gets, at once.
             configuration["connect"]["timeout_ms"] = 0
     if lease_ms is not None:
-        configuration["transport"]["link"] = {"tx": {"lease": lease_ms}}
+        configuration["transport"]["link"]["tx"] = {"lease": lease_ms}
     return configuration
 
 

@@ -6,6 +6,7 @@ import socket
 
 import pytest
 
+from kuglice import protocol
 from kuglice.errors import ProtocolError
 from kuglice.protocol import (
     client_configuration,
@@ -48,6 +49,17 @@ def test_nobody_scouts_and_nothing_is_shared():
     ):
         assert configuration["scouting"] == {"multicast": {"enabled": False}, "gossip": {"enabled": False}}
         assert configuration["transport"]["shared_memory"] == {"enabled": False}
+
+
+def test_every_kind_of_message_that_goes_as_a_whole_is_taken_in():
+    kinds = [
+        getattr(protocol, name)
+        for name in protocol.__all__
+        if isinstance(getattr(protocol, name), type) and hasattr(getattr(protocol, name), "max_bytes")
+    ]
+    larger = {kind for kind in kinds if kind.max_bytes > protocol.MAX_WHOLE_BYTES}
+    assert larger == {protocol.About, protocol.History}, "which go in parts, as states do"
+    assert protocol.Part in kinds
 
 
 def test_a_server_with_an_address_is_a_router_and_one_without_is_a_client():

@@ -61,11 +61,10 @@ class Looker:
         close_session(self._session, self._subscribers, timeout=1.0)
 
     def _hear(self, sample: zenoh.Sample) -> None:
-        data = sample.payload.to_bytes()
         self.messages += 1
-        self.bytes += len(data)
+        self.bytes += len(sample.payload)
         try:
-            region = decode(data, Region)
+            region = decode(sample.payload, Region)
             self._packer.unpack(region.balls, MAX_REGION_BALLS)
         except ProtocolError:
             self.malformed += 1
@@ -88,5 +87,5 @@ def _somewhere(nodes: Nodes) -> frozenset[int]:
 def _about(session: zenoh.Session, keys: Keys) -> ViewAbout:
     for reply in session.get(keys.view, timeout=TIMEOUT):
         if reply.ok is not None:
-            return decode(reply.ok.payload.to_bytes(), ViewAbout)
+            return decode(reply.ok.payload, ViewAbout)
     raise NetworkError(f"{keys.view}: nobody answers")

@@ -48,7 +48,7 @@ class _House:
     def status(self) -> Status:
         for reply in self.session.get(Keys(WORLD).status, timeout=5.0):
             if reply.ok is not None:
-                return decode(reply.ok.payload.to_bytes(), Status)
+                return decode(reply.ok.payload, Status)
         raise NetworkError(f"world {WORLD}: the server does not answer")
 
     def processor_seconds(self) -> tuple[float, float]:

@@ -156,7 +156,7 @@ def _about(session: zenoh.Session, keys: Keys) -> ViewAbout:
     while time.monotonic() < deadline:
         for reply in session.get(keys.view, timeout=ANSWER_SECONDS):
             if reply.ok is not None:
-                return decode(reply.ok.payload.to_bytes(), ViewAbout)
+                return decode(reply.ok.payload, ViewAbout)
         time.sleep(0.1)
     raise NetworkError(f"{keys.view}: nobody answers")
 
@@ -174,10 +174,10 @@ def _snapshot_bytes(session: zenoh.Session, keys: Keys, epoch: int) -> int:
     for reply in replies:
         if reply.ok is None:
             raise NetworkError(f"{keys.history}: no snapshot is given")
-        data = reply.ok.payload.to_bytes()
-        size += len(data)
+        payload = reply.ok.payload
+        size += len(payload)
         try:
-            if assembly.add(decode(data, Part)) is not None:
+            if assembly.add(decode(payload, Part)) is not None:
                 return size
         except ProtocolError as error:
             raise NetworkError(f"{keys.history}: {error}") from error

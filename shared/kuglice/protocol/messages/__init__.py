@@ -4,7 +4,7 @@ from kuglice.protocol.messages.about import About
 from kuglice.protocol.messages.ack import Ack
 from kuglice.protocol.messages.admission import Admission
 from kuglice.protocol.messages.client_inputs import MAX_INPUTS, ClientInputs, SentInput
-from kuglice.protocol.messages.envelope import PROTOCOL_VERSION, Message
+from kuglice.protocol.messages.envelope import MAX_WHOLE_BYTES, PROTOCOL_VERSION, Message
 from kuglice.protocol.messages.history import History
 from kuglice.protocol.messages.holding import Holding
 from kuglice.protocol.messages.part import PART_BYTES, Part
@@ -21,6 +21,7 @@ __all__ = [
     "MAX_INPUTS",
     "MAX_REGION_BALLS",
     "MAX_TOLD_TICKS",
+    "MAX_WHOLE_BYTES",
     "PACES",
     "PART_BYTES",
     "PROTOCOL_VERSION",

@@ -6,10 +6,13 @@ from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import BaseModel, ConfigDict, Field
 
-__all__ = ["PROTOCOL_VERSION", "U64", "CompactMessage", "Message", "TickNumber"]
+__all__ = ["MAX_WHOLE_BYTES", "PROTOCOL_VERSION", "U64", "CompactMessage", "Message", "TickNumber"]
 
 PROTOCOL_VERSION = 5
 """Raised by one when an old reader would misread a new message."""
+
+MAX_WHOLE_BYTES = 1 << 20
+"""Of a message that goes over the wire as it is, and not in parts."""
 
 U64 = Annotated[int, Field(ge=0, lt=2**64)]
 TickNumber = Annotated[int, Field(ge=0, lt=2**62)]

@@ -6,7 +6,7 @@ from typing import Annotated, ClassVar, Self
 
 from pydantic import Field
 
-from kuglice.protocol.messages.envelope import CompactMessage, TickNumber
+from kuglice.protocol.messages.envelope import MAX_WHOLE_BYTES, CompactMessage, TickNumber
 from kuglice.protocol.varint import Reader, write_varint
 
 __all__ = ["MAX_REGION_BALLS", "Region"]
@@ -24,7 +24,7 @@ class Region(CompactMessage):
 
     kind: ClassVar[str] = "region"
     letter: ClassVar[bytes] = b"r"
-    max_bytes: ClassVar[int] = 1 << 20
+    max_bytes: ClassVar[int] = MAX_WHOLE_BYTES
 
     tick: TickNumber
     node: Annotated[int, Field(ge=0, lt=1 << 16)]

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from pydantic import BaseModel, ConfigDict
 
-from kuglice.protocol.messages.envelope import U64, Message, TickNumber
+from kuglice.protocol.messages.envelope import MAX_WHOLE_BYTES, U64, Message, TickNumber
 
 __all__ = ["ClientStatus", "Status"]
 
@@ -34,7 +34,7 @@ class Status(Message):
     """
 
     kind: ClassVar[str] = "status"
-    max_bytes: ClassVar[int] = 4 << 20
+    max_bytes: ClassVar[int] = MAX_WHOLE_BYTES
 
     world: str
     tick: TickNumber

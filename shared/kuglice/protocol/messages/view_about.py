@@ -8,6 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from kuglice import _core
 from kuglice.protocol.messages.about import AboutWorld
+from kuglice.protocol.messages.envelope import MAX_WHOLE_BYTES
 from kuglice.protocol.nodes import Rectangle
 
 __all__ = ["PACES", "RegionTerms", "ViewAbout"]
@@ -55,7 +56,7 @@ class ViewAbout(AboutWorld):
     """
 
     kind: ClassVar[str] = "view about"
-    max_bytes: ClassVar[int] = 1 << 20
+    max_bytes: ClassVar[int] = MAX_WHOLE_BYTES
 
     balls: Annotated[int, Field(ge=0)]
     reference_speed: Positive
