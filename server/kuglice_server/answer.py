@@ -110,7 +110,7 @@ class Answers:
                 query.reply_err(self._refusal(f"internal error: {error}"))
 
     def _refusal(self, reason: str) -> bytes:
-        return encode(Refusal(epoch=self._epoch, reason=reason[:2000]))
+        return encode(Refusal(epoch=self._epoch, reason=reason[: Refusal.max_reason]))
 
     def _status_route(self, query: zenoh.Query) -> _Route:
         if query.payload is None:

@@ -91,8 +91,9 @@ class Arrivals:
     def _answer(self, is_due: Callable[[_Waiting], bool]) -> None:
         # Without the lock: whoever asks next must not wait for an answer to others.
         due = [one for one in self._taken() if is_due(one)]
+        answered = set(due)
         with self._lock:
-            self._waiting = [one for one in self._waiting if one not in due]
+            self._waiting = [one for one in self._waiting if one not in answered]
         for one in due:
             try:
                 one.answer()

@@ -10,6 +10,7 @@ from kuglice import Scene, World
 from kuglice.errors import InputError
 from kuglice.inputs import Input, Leave, join
 from kuglice.protocol import Ack, Admission, ClientStatus
+from kuglice_server.counters import Counters
 
 __all__ = ["Player", "Players"]
 
@@ -18,7 +19,7 @@ log = logging.getLogger(__name__)
 MAX_PLAYERS = 256
 """Where the scene gives no bound of its own."""
 MAX_NAMES = 4096
-"""Names remembered after their clients left; the longest gone are forgotten first."""
+"""Names remembered after their clients left; the longest gone are forgotten first. So many may wait to be let in."""
 REMEMBERED_OUTCOMES = 256
 
 Who = tuple[str, str]
@@ -57,12 +58,14 @@ class Players:
     """Clients of one world. Not for two threads at once: the owner locks.
 
     A name is played by one session at a time: the first one that came. `grace`: ticks for which a player whose token
-    vanished is still here, ball and all, so that the same session goes on with it once its link is back.
+    vanished is still here, ball and all, so that the same session goes on with it once its link is back. Who comes
+    while as many wait as may wait is counted as `arrivals_ignored`, and let in once its token appears again.
     """
 
-    def __init__(self, scene: Scene, *, grace: int) -> None:
+    def __init__(self, scene: Scene, *, grace: int, counters: Counters) -> None:
         self._scene = scene
         self._grace = grace
+        self._counters = counters
         self._by_name: OrderedDict[str, Player] = OrderedDict()
         self._waiting: dict[Who, None] = {}
         self._refused: dict[Who, str] = {}
@@ -113,8 +116,10 @@ class Players:
         """A token appeared: somebody new, or one whose link is back."""
         player = self.find(name, session)
         if player is None:
-            if len(self._waiting) < MAX_NAMES:
+            if (name, session) in self._waiting or len(self._waiting) < MAX_NAMES:
                 self._waiting[name, session] = None
+            else:
+                self._counters.add("arrivals_ignored")
         elif player.away_since is not None:
             player.away_since = None
             log.info("%s (client %d) is back", name, player.number)
@@ -151,7 +156,7 @@ class Players:
                 authored.append(self._admit(name, session, world))
             except InputError as error:
                 log.warning("%s is refused: %s", name, error)
-                self._refused[waiting] = str(error)[:400]
+                self._refused[waiting] = str(error)[: Admission.max_reason]
                 if len(self._refused) > MAX_NAMES:
                     del self._refused[next(iter(self._refused))]
         return authored

@@ -65,7 +65,7 @@ class Server(Closing):
         self._keys = Keys(settings.world)
         self._lock = threading.Lock()
         self._owner = Owner(self.world, self.counters)
-        self._players = Players(scene, grace=self.cadence.grace)
+        self._players = Players(scene, grace=self.cadence.grace, counters=self.counters)
         self._history = History(span=self.cadence.history)
         self._schedule = Schedule(self.cadence.rate)
         self._terms = choose_terms(self.world, rate=self.cadence.region_rate)

@@ -65,7 +65,7 @@ class Simulation:
         queue: Callable[[float], float] = lambda _: 0.0,
     ) -> None:
         scene = small_arena()
-        players = Players(scene, grace=300)
+        players = Players(scene, grace=300, counters=Counters())
         self._intake = Intake(scene, players, epoch=EPOCH, horizon=120, counters=Counters())
         self._world = World(scene)
         self._players = players

@@ -32,8 +32,8 @@ class Desk:
     def __init__(self, per_tick: int = 4) -> None:
         scene = small_arena(per_tick=per_tick)
         self.world = World(scene)
-        self.players = players = Players(scene, grace=300)
         self.counters = Counters()
+        self.players = players = Players(scene, grace=300, counters=self.counters)
         self.told: list[Ack] = []
         self.intake = Intake(scene, players, epoch=EPOCH, horizon=HORIZON, counters=self.counters)
         players.arrive("ana", SESSION)

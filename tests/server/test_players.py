@@ -6,7 +6,8 @@ import pytest
 
 from kuglice import World
 from kuglice.inputs import Join, Leave
-from kuglice_server.players import Players
+from kuglice_server.counters import Counters
+from kuglice_server.players import MAX_NAMES, Players
 from server.small_arena import small_arena
 
 GRACE = 30
@@ -19,7 +20,7 @@ def world():
 
 @pytest.fixture
 def players():
-    return Players(small_arena(), grace=GRACE)
+    return Players(small_arena(), grace=GRACE, counters=Counters())
 
 
 def turn(players: Players, world: World) -> list:
@@ -105,7 +106,7 @@ def test_everybody_gone_is_not_the_same_as_nobody_yet(players, world):
 
 def test_players_without_balls_where_the_scene_has_none():
     scene = small_arena().model_copy(update={"players": None})
-    players, world = Players(scene, grace=GRACE), World(scene)
+    players, world = Players(scene, grace=GRACE, counters=Counters()), World(scene)
     players.arrive("ana", "s1")
     turn(players, world)
     assert world.players == [(1, None)]
@@ -186,3 +187,21 @@ def test_one_who_says_goodbye_is_not_waited_for(players, world):
     # Its token vanishes only now.
     players.depart("ana", "s1", world.tick)
     assert away(players, world, GRACE + 1) == []
+
+
+def test_who_comes_when_too_many_wait_is_counted_and_comes_in_once_there_is_room(world):
+    counters = Counters()
+    players = Players(small_arena(), grace=GRACE, counters=counters)
+    for number in range(MAX_NAMES):
+        players.arrive(f"early-{number}", "s1")
+    players.arrive("early-7", "s1")
+    assert counters.all() == {}, "one that waits already takes no more room"
+    players.arrive("late", "s1")
+    assert counters.all() == {"arrivals_ignored": 1}
+    for number in range(MAX_NAMES):
+        players.depart(f"early-{number}", "s1", world.tick)
+    assert turn(players, world) == []
+    players.arrive("late", "s1")
+    turn(players, world)
+    assert players.find("late", "s1") is not None
+    assert counters["arrivals_ignored"] == 1

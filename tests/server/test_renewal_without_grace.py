@@ -8,6 +8,7 @@ import pytest
 from kuglice import World
 from kuglice.inputs import Leave
 from kuglice_server.cadence import Cadence
+from kuglice_server.counters import Counters
 from kuglice_server.players import Players
 from kuglice_server.settings import ServerSettings
 from server.small_arena import small_arena
@@ -23,7 +24,7 @@ def world():
 @pytest.fixture
 def players(world):
     cadence = Cadence.of(ServerSettings(world="arena", rate=RATE, grace=0.0), world)
-    players = Players(world.scene, grace=cadence.grace)
+    players = Players(world.scene, grace=cadence.grace, counters=Counters())
     players.arrive("ana", "s1")
     run(players, world, 1)
     return players

@@ -10,8 +10,6 @@ from kuglice.protocol.messages.envelope import U64, Message
 
 __all__ = ["Admission"]
 
-MAX_REASON = 400
-
 
 class Admission(Message):
     """Answers an ArrivalRequest.
@@ -23,8 +21,10 @@ class Admission(Message):
 
     kind: ClassVar[str] = "admission"
     max_bytes: ClassVar[int] = 4096
+    max_reason: ClassVar[int] = 400
+    """Characters."""
 
     number: int | None
     sequence: U64
-    refused: Annotated[str, Field(max_length=MAX_REASON)] | None
+    refused: Annotated[str, Field(max_length=max_reason)] | None
     kept: bool

@@ -16,5 +16,7 @@ class Refusal(Message):
 
     kind: ClassVar[str] = "refusal"
     max_bytes: ClassVar[int] = 4096
+    max_reason: ClassVar[int] = 2000
+    """Characters."""
 
-    reason: Annotated[str, Field(max_length=2000)]
+    reason: Annotated[str, Field(max_length=max_reason)]
