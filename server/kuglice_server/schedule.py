@@ -6,6 +6,8 @@ import threading
 import time
 from collections.abc import Callable
 
+from kuglice_server.ending import Ending
+
 __all__ = ["Schedule"]
 
 
@@ -34,11 +36,11 @@ class Schedule:
         """Clock time of the next tick."""
         return self._begin + self._ticks / self.rate
 
-    def wait(self, stop: threading.Event) -> float:
-        """Sleep until the next tick is due, or until `stop`. Returns how late it is already, in seconds."""
+    def wait(self, ending: Ending | threading.Event) -> float:
+        """Sleep until the next tick is due, or until `ending`. Returns how late it is already, in seconds."""
         ahead = self.due - self._clock()
         if ahead > 0:
-            stop.wait(ahead)
+            ending.wait(ahead)
         lateness = max(0.0, self._clock() - self.due)
         self.worst_lateness = max(self.worst_lateness, lateness)
         if lateness > 1 / self.rate:

@@ -30,6 +30,7 @@ from kuglice_server.beside import Beside
 from kuglice_server.cadence import Cadence
 from kuglice_server.counters import Counters
 from kuglice_server.description import Description
+from kuglice_server.ending import Ending
 from kuglice_server.epoch import new_epoch
 from kuglice_server.history import History
 from kuglice_server.inboxes import Inboxes
@@ -64,6 +65,10 @@ class Server(Closing):
         self.counters = Counters()
         self._keys = Keys(settings.world)
         self._lock = threading.Lock()
+        self._closed = threading.Event()
+        # Held while ticks are made. The thread that has it may take it again: rules of a game may close their server.
+        self._making_ticks = threading.RLock()
+        self._cut_short = False
         self._owner = Owner(self.world, self.counters)
         self._players = Players(scene, grace=self.cadence.grace, counters=self.counters)
         self._history = History(span=self.cadence.history)
@@ -176,14 +181,33 @@ class Server(Closing):
         """Tick until `stop`, for that many seconds of the schedule, or until the last client has left.
 
         `each_tick` is called between two ticks, to look at the world and to `act`; what it takes, the ticks wait for.
-        A slow-down is logged, once per second at most. Raises StepError if anybody else steps the world.
+        A slow-down is logged, once per second at most. `close` ends it too, from any thread; a server that is closed
+        makes no more ticks. Raises StepError if anybody else steps the world.
         """
+        with self._making_ticks:
+            try:
+                self._make_ticks(Ending(stop, self._closed), seconds, until_empty, each_tick)
+            except (zenoh.ZError, RuntimeError) as error:
+                if not self._cut_short:
+                    raise
+                log.warning("tick %d was cut short: %s", self.world.tick, error)
+            finally:
+                if self._closed.is_set():
+                    self._end_record()
+
+    def _make_ticks(
+        self,
+        ending: Ending,
+        seconds: float | None,
+        until_empty: bool,
+        each_tick: Callable[[Server], None] | None,
+    ) -> None:
         self._schedule = Schedule(self.cadence.rate)
         ticks = None if seconds is None else round(seconds * self.cadence.rate)
         told_lost, told_at = 0.0, time.monotonic()
-        while not stop.is_set() and (ticks is None or ticks > 0):
-            self._schedule.wait(stop)
-            if stop.is_set():
+        while not ending.is_set() and (ticks is None or ticks > 0):
+            self._schedule.wait(ending)
+            if ending.is_set():
                 break
             self._loop.tick()
             self._regions.turn(self.world)
@@ -237,9 +261,30 @@ class Server(Closing):
             )
 
     def close(self, timeout: float = 5.0) -> bool:
-        """Finish the record, leave the network. False if Zenoh did not finish within `timeout` seconds."""
+        """End `run` after the tick under way, finish the record, leave the network. Safe from any thread, and in
+        `each_tick`.
+
+        False if that took longer than `timeout` seconds: Zenoh did not finish, or the tick, which then tells nobody of
+        itself and ends the record when it is done.
+        """
+        self._closed.set()
+        until = time.monotonic() + timeout
+        if not self._making_ticks.acquire(timeout=timeout):
+            log.error("tick %d did not end within %g s", self._now, timeout)
+            self._cut_short = True
+            self._leave(0.0)
+            return False
+        try:
+            self._end_record()
+            return self._leave(max(0.0, until - time.monotonic()))
+        finally:
+            self._making_ticks.release()
+
+    def _end_record(self) -> None:
         if self._record is not None:
             self._record.close()
+
+    def _leave(self, timeout: float) -> bool:
         declared: tuple[Declared, ...] = (
             self._teller,
             self._inboxes,
@@ -250,5 +295,5 @@ class Server(Closing):
         )
         closed = close_session(self._session, declared, timeout=timeout)
         if not closed:
-            log.error("the network session did not close within %g s", timeout)
+            log.error("the network session did not close in time")
         return closed
