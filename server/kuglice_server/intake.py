@@ -12,6 +12,7 @@ Every input has a defined answer:
 - a sequence number far ahead of the last one: refused and not taken, or all that follow would be too low;
 - impossible (a spawn where there is no room, or a tick that cannot be made with it): refused when its tick comes, by
   the tick loop, even if it was promised;
+- of one who has left when its tick comes: refused likewise, or a pull would be held that nobody ends;
 - more than `limits.per_tick` in one tick: the rest waits for the next, in order;
 - malformed: a message that cannot be read, or is too large to be looked at, is refused as a whole, with the reason,
   under no sequence number;
@@ -115,7 +116,11 @@ class Intake:
         inputs = self._scheduled.pop(tick, [])
         for client in {one.client for one in inputs}:
             del self._used[client, tick]
-        return inputs
+        here = {player.number for player in self._players.present} if inputs else set()
+        for one in inputs:
+            if one.client not in here:
+                self.left_out(tick, one, f"{one.kind} {one.sequence} of client {one.client}: it has left")
+        return [one for one in inputs if one.client in here]
 
     def left_out(self, tick: int, one: Input, why: str) -> None:
         """An input that was due in `tick` does not act after all: refused, whatever was promised."""
