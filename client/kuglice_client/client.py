@@ -41,7 +41,8 @@ SESSION_BYTES = 8
 class Client(Closing):
     """Connects and joins when made; `run` plays until told to stop. A context manager. Raises JoinError.
 
-    Its link, screen and totals last; its `replica` is of one run of the server.
+    So does `run`, with the reason, if the server dismisses the player, or will not have it back after a cut or a
+    restart. Its link, screen and totals last; its `replica` is of one run of the server.
     """
 
     def __init__(self, settings: ClientSettings, stop: threading.Event | None = None) -> None:
@@ -106,12 +107,13 @@ class Client(Closing):
     def turn(self, now: float) -> float:
         """Take in what came, predict up to now, send. `frame` is to be called for each frame that is drawn of it.
 
-        Returns how far the drawn state is from one tick to the next.
+        Returns how far the drawn state is from one tick to the next. Raises JoinError if the server will not have us
+        any more.
         """
         self.replica.receive(now)
         self.replica.heal(now)
         if self.replica.over:
-            self._rejoin()
+            self._end_or_rejoin()
         replica = self.replica
         answered = replica.healing.brought is not None
         if self.renewal.turn(now, silent=replica.stream.silent(now), answered=answered):
@@ -214,8 +216,11 @@ class Client(Closing):
         whom = "a spectator" if joined.number is None else f"client {joined.number}"
         log.info("joined world %s at tick %d as %s", about.world, joined.world.tick, whom)
 
-    def _rejoin(self) -> None:
+    def _end_or_rejoin(self) -> None:
         """The server was started again, or has given our player up. Raises JoinError if it will not have us back."""
+        if self.replica.refused is not None and not self.replica.credibility.restarted:
+            log.warning("the server has given client %s up", self.settings.name)
+            raise JoinError(f"client {self.settings.name}: {self.replica.refused}")
         if self.replica.credibility.restarted:
             log.warning("world %s was restarted: it is joined again", self._keys.world)
         else:

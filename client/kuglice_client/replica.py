@@ -7,7 +7,7 @@ import math
 import threading
 import time
 
-from kuglice.protocol import History, Keys, Tick
+from kuglice.protocol import Admission, History, Keys, Tick
 from kuglice.study.recorder import StudyRecorder
 from kuglice_client.clock import Clock
 from kuglice_client.credibility import Credibility
@@ -157,9 +157,20 @@ class Replica:
     @property
     def over(self) -> bool:
         """Whether the server is another run by now, or has given our player up: then the world is to be joined anew."""
-        told = self._pinging.admission
-        given_up = told is not None and told.epoch == self.joined.epoch and told.number != self.joined.number
+        told = self._told_of_us
+        given_up = told is not None and told.number != self.joined.number
         return given_up or self.credibility.restarted
+
+    @property
+    def refused(self) -> str | None:
+        """Why this run of the server will not have us any more, None while it will: joining anew is in vain."""
+        told = self._told_of_us
+        return None if told is None else told.refused
+
+    @property
+    def _told_of_us(self) -> Admission | None:
+        told = self._pinging.admission
+        return told if told is not None and told.epoch == self.joined.epoch else None
 
     def receive(self, now: float) -> None:
         """Take in what came."""

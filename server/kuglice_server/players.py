@@ -21,6 +21,8 @@ MAX_PLAYERS = 256
 MAX_NAMES = 4096
 """Names remembered after their clients left; the longest gone are forgotten first. So many may wait to be let in."""
 REMEMBERED_OUTCOMES = 256
+DISMISSED = "dismissed: "
+"""What a client is told before the reason, so that it is not taken for one who was refused in the first place."""
 
 Who = tuple[str, str]
 """Name and session."""
@@ -69,6 +71,7 @@ class Players:
         self._by_name: OrderedDict[str, Player] = OrderedDict()
         self._waiting: dict[Who, None] = {}
         self._refused: dict[Who, str] = {}
+        self._dismissed: dict[Who, str] = {}
         self._leaves: list[Input] = []
         self._numbers = 0
         self._sequence = 0
@@ -106,14 +109,16 @@ class Players:
 
     def settled(self, name: str, session: str) -> bool:
         """Whether it is clear if this session plays `name`: it does, or it was refused."""
-        return self.find(name, session) is not None or (name, session) in self._refused
+        return self.find(name, session) is not None or self._why_not((name, session)) is not None
 
     def numbered(self, number: int) -> Player | None:
         """The player of that number, here or not."""
         return next((player for player in self._by_name.values() if player.number == number), None)
 
     def arrive(self, name: str, session: str) -> None:
-        """A token appeared: somebody new, or one whose link is back."""
+        """A token appeared: somebody new, or one whose link is back. One who was dismissed stays out."""
+        if (name, session) in self._dismissed:
+            return
         player = self.find(name, session)
         if player is None:
             if (name, session) in self._waiting or len(self._waiting) < MAX_NAMES:
@@ -138,7 +143,21 @@ class Players:
         self._waiting.pop((name, session), None)
         player = self.find(name, session)
         if player is not None:
-            self._dismiss(player)
+            self._let_go(player)
+
+    def dismiss(self, name: str, reason: str) -> None:
+        """As `Server.dismiss`. Raises InputError if nobody plays under that name, or the reason cannot be told."""
+        most = Admission.max_reason - len(DISMISSED)
+        if not 1 <= len(reason) <= most:
+            raise InputError(
+                f"dismiss {name[:64]!r}: a reason of {len(reason)} characters, must be 1 to {most}"
+            )
+        player = self._by_name.get(name)
+        if player is None or not player.present:
+            raise InputError(f"dismiss {name[:64]!r}: must be one of those who play, {len(self.present)} now")
+        _remember(self._dismissed, (name, player.session), f"{DISMISSED}{reason}")
+        log.info("%s (client %d) is dismissed: %s", name, player.number, reason)
+        self._let_go(player)
 
     def authored(self, world: World) -> list[Input]:
         """Leaves since the last call, of those away for too long too, and the join of one who waits.
@@ -147,7 +166,7 @@ class Players:
         """
         for player in self.present:
             if player.away_since is not None and world.tick - player.away_since >= self._grace:
-                self._dismiss(player)
+                self._let_go(player)
         authored, self._leaves = self._leaves, []
         waiting = None if authored else self._next_waiting()
         if waiting is not None:
@@ -156,10 +175,12 @@ class Players:
                 authored.append(self._admit(name, session, world))
             except InputError as error:
                 log.warning("%s is refused: %s", name, error)
-                self._refused[waiting] = str(error)[: Admission.max_reason]
-                if len(self._refused) > MAX_NAMES:
-                    del self._refused[next(iter(self._refused))]
+                _remember(self._refused, waiting, str(error)[: Admission.max_reason])
         return authored
+
+    def _why_not(self, who: Who) -> str | None:
+        """Why that session will not be let in, None where that is open."""
+        return self._dismissed.get(who) or self._refused.get(who)
 
     def _next_waiting(self) -> Who | None:
         """The first of those who need wait no longer, taken from the queue."""
@@ -176,7 +197,7 @@ class Players:
         holder = self._by_name.get(name)
         return holder is not None and holder.present and holder.away_since is not None
 
-    def _dismiss(self, player: Player) -> None:
+    def _let_go(self, player: Player) -> None:
         player.present, player.away_since = False, None
         self._leaves.append(Leave(client=player.number, sequence=self._next_sequence()))
         log.info("%s (client %d) leaves", player.name, player.number)
@@ -202,7 +223,7 @@ class Players:
             epoch=epoch,
             number=None if player is None else player.number,
             sequence=0 if player is None else player.sequence,
-            refused=self._refused.get((name, session)),
+            refused=self._why_not((name, session)),
             kept=player is None and self._is_kept(name),
         )
 
@@ -233,3 +254,9 @@ class Players:
         absent = [name for name, player in self._by_name.items() if not player.present]
         for name in absent[: max(0, len(self._by_name) - MAX_NAMES)]:
             del self._by_name[name]
+
+
+def _remember(reasons: dict[Who, str], who: Who, reason: str) -> None:
+    reasons[who] = reason
+    if len(reasons) > MAX_NAMES:
+        del reasons[next(iter(reasons))]

@@ -170,6 +170,19 @@ class Server(Closing):
         """
         return self._owner.act(given)
 
+    def dismiss(self, name: str, reason: str) -> None:
+        """Take a player out of the game in the next tick, ball and all. Safe from any thread.
+
+        Its client is told `reason` when it next asks how it stands, within about two seconds, and ends with a
+        JoinError that says it. That session does not come back. The same person may, in a session of its own: keeping
+        somebody out is for the rules of the game, which see in `status().clients` who plays.
+
+        Raises InputError if nobody plays under that name, or for a reason that is empty or longer than a client can
+        be told.
+        """
+        with self._lock:
+            self._players.dismiss(name, reason)
+
     def run(
         self,
         stop: threading.Event,

@@ -15,7 +15,7 @@ KugliceError
 ├── ReplayError               a replay or study file that is damaged, or not one
 ├── ProtocolError             a message that is damaged, too large, or of another version
 ├── NetworkError              a link that cannot be opened or conditioned as asked
-├── JoinError                 a server that cannot be joined
+├── JoinError                 a server that cannot be joined, or has dismissed the player
 ├── PictureError (ValueError) a picture or video that cannot be drawn or written as asked
 └── MissingExtraError (ImportError)  a package that only an extra installs
 
@@ -114,7 +114,7 @@ class NetworkError(KugliceError):
 
 
 class JoinError(KugliceError):
-    """A server that cannot be joined."""
+    """A server that cannot be joined, or that will have a player no more."""
 
 
 class PictureError(KugliceError, ValueError):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from e2e.processes import free_endpoint
@@ -14,11 +14,11 @@ __all__ = ["serving"]
 
 
 @contextmanager
-def serving(world: str) -> Iterator[tuple[str, Server]]:
+def serving(world: str, each_tick: Callable[[Server], None] | None = None) -> Iterator[tuple[str, Server]]:
     """An endpoint, and the server of a small arena there, ticking."""
     endpoint, stop = free_endpoint(), threading.Event()
     with Server(small_arena(), ServerSettings(world=world, listen=(endpoint,))) as server:
-        thread = threading.Thread(target=server.run, args=(stop,))
+        thread = threading.Thread(target=server.run, args=(stop,), kwargs={"each_tick": each_tick})
         thread.start()
         try:
             yield endpoint, server

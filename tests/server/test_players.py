@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from kuglice import World
+from kuglice.errors import InputError
 from kuglice.inputs import Join, Leave
 from kuglice_server.counters import Counters
 from kuglice_server.players import MAX_NAMES, Players
@@ -205,3 +206,34 @@ def test_who_comes_when_too_many_wait_is_counted_and_comes_in_once_there_is_room
     turn(players, world)
     assert players.find("late", "s1") is not None
     assert counters["arrivals_ignored"] == 1
+
+
+def test_one_who_is_dismissed_leaves_and_its_session_stays_out(players, world):
+    players.arrive("ana", "s1")
+    turn(players, world)
+    balls = world.count
+    players.dismiss("ana", "enough")
+    assert [type(one) for one in turn(players, world)] == [Leave]
+    assert world.count == balls - 1
+    assert players.settled("ana", "s1")
+    assert refused(players, "ana", "s1") == "dismissed: enough"
+    # Its link is opened anew, the old one's end is told first.
+    players.depart("ana", "s1", world.tick)
+    players.arrive("ana", "s1")
+    assert [turn(players, world) for _ in range(3)] == [[], [], []]
+    assert refused(players, "ana", "s1") == "dismissed: enough"
+    players.arrive("ana", "s2")
+    (join,) = turn(players, world)
+    assert join.client == 1
+    assert refused(players, "ana", "s2") is None
+    assert refused(players, "ana", "s1") == "dismissed: enough"
+
+
+def test_one_who_is_away_can_be_dismissed_too(players, world):
+    players.arrive("ana", "s1")
+    turn(players, world)
+    players.depart("ana", "s1", world.tick)
+    players.dismiss("ana", "enough")
+    assert [type(one) for one in turn(players, world)] == [Leave]
+    with pytest.raises(InputError, match="must be one of those who play, 0 now"):
+        players.dismiss("ana", "enough")
