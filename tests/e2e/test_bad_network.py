@@ -5,10 +5,14 @@ Through a proxy everywhere, and as root through a tunnel, where real TCP has to 
 
 from __future__ import annotations
 
+import re
+import signal
+
 import pytest
 
 from e2e.bad_network import Play
-from e2e.processes import Command, until
+from e2e.processes import Command, free_endpoint, until
+from e2e.verdict import CHECKING, assert_all_equal
 from kuglice.lab.network import Conditions, open_link
 from kuglice.lab.network.tun_device import why_impossible
 
@@ -91,6 +95,32 @@ def test_a_stall_costs_time_and_nothing_else(start, scene, tmp_path, link):
     (figures,) = play.end(player)
     assert figures["snapshots_taken"] == 0
     assert figures["hashes_checked"] > 150
+
+
+def test_a_proxy_by_hand_cuts_and_stalls_a_game_that_goes_on(start, scene, endpoint, recording):
+    server = start(
+        "server", scene, "--listen", endpoint, "--grace", 600, "--record", recording.path, "--json"
+    )
+    until(lambda: "balls on" in server.err, what="the server is there")
+    here = free_endpoint()
+    # However long joining takes here, a cut and a stall are still to come.
+    often = [word for at in range(10, 240, 10) for word in ("--cut", f"{at}:2", "--stall", f"{at + 5}:1")]
+    proxy = start("proxy", here, endpoint, "--round-trip", 50, *often)
+    until(lambda: f"{here} to {endpoint}" in proxy.err, what="the proxy is there")
+    player = start("client", *CHECKING, "--connect", here, "--name", "ana", "--bot", "chaser", "--json")
+    until(lambda: "joined world" in player.err, what="ana joins")
+    until(lambda: "ana (client 1) is away" in server.err, what="ana is missed")
+    until(lambda: "ana (client 1) is back" in server.err, what="ana is back")
+    seen = proxy.err.count("stall for 1 s")
+    until(lambda: proxy.err.count("stall for 1 s") > seen, what="a stall")
+    player.signal(signal.SIGINT)
+    figures = player.figures()
+    server.end()
+    proxy.signal(signal.SIGINT)
+    assert proxy.wait() == 0
+    assert re.search(r"^down tcp bytes: [\d,]+$", proxy.err, re.MULTILINE)
+    assert figures["rejoins"] == 0
+    assert_all_equal(recording.path, [figures])
 
 
 def test_packets_that_overtake_and_come_twice_change_nothing(start, scene, tmp_path, link):

@@ -12,6 +12,7 @@ from kuglice.cli.stop import stop_on_signals
 from kuglice.errors import NetworkError
 from kuglice.lab.network.addresses import address
 from kuglice.lab.network.conditions import Conditions
+from kuglice.lab.network.interruption import LONGEST_SECONDS, Interruption
 from kuglice.lab.network.proxy import Proxy
 from kuglice.protocol import DEFAULT_ENDPOINT, check_hosts
 
@@ -39,14 +40,31 @@ def proxy(
     duplicate: Annotated[float, typer.Option(help="Share of datagrams that come twice.")] = 0.0,
     reorder: Annotated[bool, typer.Option("--reorder", help="Let datagrams overtake each other.")] = False,
     bandwidth: Annotated[float, typer.Option(help="Bytes per second each way, 0 for no limit.")] = 0.0,
+    cut: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="AT:SECONDS",
+            help=f"Cut the link AT seconds after the start, for SECONDS (up to {LONGEST_SECONDS:g}): connections break "
+            "off, none comes about until it is over, and datagrams are lost. May be repeated.",
+        ),
+    ] = None,
+    stall: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="AT:SECONDS",
+            help="Hold everything, likewise, and let it on afterwards: nothing is lost. May be repeated.",
+        ),
+    ] = None,
     seed: Annotated[int, typer.Option(help="Of all that is random.")] = 1,
 ) -> None:
     """Put a bad network between a server and its clients.
 
     It relays TCP connections and UDP datagrams of one port, whichever of them an endpoint names; a bare host:port
-    will do. Ends on SIGINT or SIGTERM.
+    will do. Cuts and stalls that overlap last until the last of them is over. Ends on SIGINT or SIGTERM.
 
     Example: kuglice proxy --round-trip 300, and then kuglice client --connect tcp+udp/127.0.0.1:7448
+
+    Example: kuglice proxy --cut 20:5 --stall 40:1.5
     """
     conditions = Conditions(
         round_trip=round_trip / 1000,
@@ -57,6 +75,8 @@ def proxy(
         bandwidth=bandwidth,
         seed=seed,
     )
+    interruptions = [Interruption.parse("cut", text) for text in cut or ()]
+    interruptions += [Interruption.parse("stall", text) for text in stall or ()]
     ours, theirs = address(listen), address(target)
     if ours == theirs:
         raise NetworkError(
@@ -66,9 +86,15 @@ def proxy(
     stop = stop_on_signals()
     relay = Proxy(ours, theirs, conditions)
 
+    def interrupt(interruption: Interruption) -> None:
+        relay.interrupt(interruption)
+        STDERR.print(str(interruption), highlight=False)
+
     async def until_stopped() -> None:
         await relay.start()
         STDERR.print(f"{listen} to {target}: {conditions}", highlight=False)
+        for interruption in interruptions:
+            asyncio.get_running_loop().call_later(interruption.at, interrupt, interruption)
         while not stop.is_set():
             await asyncio.sleep(POLL_SECONDS)
         relay.close()

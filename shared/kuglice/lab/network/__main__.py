@@ -30,7 +30,7 @@ def main(arguments: list[str]) -> None:
 async def _proxy(proxy: Proxy) -> None:
     await proxy.start()
     say(ready=True)
-    await obey(proxy.lines, proxy.counter, when_cut=proxy.reset)
+    await obey(proxy.lines, proxy.counter, proxy.interrupt)
     proxy.close()
 
 

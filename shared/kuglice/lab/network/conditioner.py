@@ -60,11 +60,18 @@ class Conditioner(Closing):
         self._order("change", conditions.to_message())
 
     def cut(self, seconds: float) -> None:
-        """Nothing gets through for that long, and what is sent is lost; returns at once. 0 ends a cut."""
+        """Nothing gets through for that long, and what is sent is lost; returns at once.
+
+        A cut that lasts longer stays. Raises NetworkError for more than an hour, or less than nothing.
+        """
         self._order("cut", seconds)
 
+    def mend(self) -> None:
+        """End a cut now."""
+        self._order("mend", True)
+
     def stall(self, seconds: float) -> None:
-        """Nothing gets through for that long, and then all of it; returns at once."""
+        """Nothing gets through for that long, and then all of it; returns at once. Otherwise like `cut`."""
         self._order("stall", seconds)
 
     def counts(self) -> Mapping[str, int]:

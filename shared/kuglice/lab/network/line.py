@@ -30,7 +30,8 @@ class Line:
         self._last: dict[Hashable, float] = {}
         self._free = -math.inf
         self._cut_until = -math.inf
-        self._held_until = -math.inf
+        self.held_until = -math.inf
+        """End of the last stall."""
         self.change(conditions)
 
     def change(self, conditions: Conditions) -> None:
@@ -39,12 +40,16 @@ class Line:
         self._random = random.Random(2 * conditions.seed + self._direction)
 
     def cut(self, until: float) -> None:
-        """Lose every packet until then."""
-        self._cut_until = until
+        """Lose every packet until then, or until the end of a cut that lasts longer."""
+        self._cut_until = max(self._cut_until, until)
+
+    def mend(self) -> None:
+        """No longer cut, whatever was ordered."""
+        self._cut_until = -math.inf
 
     def stall(self, until: float) -> None:
-        """Hold every packet until then, and lose none."""
-        self._held_until = until
+        """Hold every packet until then, or until the end of a stall that lasts longer, and lose none."""
+        self.held_until = max(self.held_until, until)
 
     def is_cut(self, now: float) -> bool:
         """Whether packets are lost now because the line is cut."""
@@ -76,7 +81,7 @@ class Line:
 
     def _arrival(self, now: float, size: int, early: float) -> float:
         conditions = self.conditions
-        leaves = max(now, self._held_until)
+        leaves = max(now, self.held_until)
         if conditions.bandwidth:
             leaves = max(leaves, self._free) + size / conditions.bandwidth
             self._free = leaves

@@ -1,6 +1,6 @@
 """What a conditioner process is told on stdin and answers on stdout: one JSON value per line.
 
-    {"change": CONDITIONS}   {"cut": seconds}   {"stall": seconds}   {"count": true}
+    {"change": CONDITIONS}   {"cut": seconds}   {"stall": seconds}   {"mend": true}   {"count": true}
 
 Each is answered with the counters so far. At the end of stdin the process ends, so that it never outlives
 whoever started it.
@@ -16,11 +16,10 @@ from collections.abc import Callable, Sequence
 
 from kuglice.errors import NetworkError
 from kuglice.lab.network.conditions import Conditions
+from kuglice.lab.network.interruption import Interruption
 from kuglice.lab.network.line import Line
 
 __all__ = ["obey", "say"]
-
-LONGEST_SECONDS = 3600.0
 
 
 def say(**message: object) -> None:
@@ -29,23 +28,22 @@ def say(**message: object) -> None:
 
 
 async def obey(
-    lines: Sequence[Line], counter: Counter[str], when_cut: Callable[[], None] = lambda: None
+    lines: Sequence[Line], counter: Counter[str], interrupt: Callable[[Interruption], object]
 ) -> None:
-    """Do what stdin says until it ends; `when_cut` is called when the lines have been cut."""
+    """Do what stdin says until it ends; `interrupt` does so to the lines, now, and to what hangs on them."""
     loop = asyncio.get_running_loop()
     reader = asyncio.StreamReader()
     await loop.connect_read_pipe(lambda: asyncio.StreamReaderProtocol(reader), sys.stdin)
     while text := await reader.readline():
         try:
-            if _do(json.loads(text), lines, loop.time()) == "cut":
-                when_cut()
+            _do(json.loads(text), lines, interrupt)
         except (NetworkError, ValueError) as error:
             say(error=str(error))
         else:
             say(counts=dict(counter))
 
 
-def _do(order: object, lines: Sequence[Line], now: float) -> str:
+def _do(order: object, lines: Sequence[Line], interrupt: Callable[[Interruption], object]) -> None:
     if not isinstance(order, dict) or len(order) != 1:
         raise NetworkError(f"order {order!r}: must be an object with one key")
     ((name, value),) = order.items()
@@ -54,14 +52,14 @@ def _do(order: object, lines: Sequence[Line], now: float) -> str:
             conditions = Conditions.from_message(value)
             for line in lines:
                 line.change(conditions)
-        case "cut" | "stall" if isinstance(value, int | float) and 0 <= value <= LONGEST_SECONDS:
+        case "cut" | "stall" if isinstance(value, int | float):
+            interrupt(Interruption(name, value))
+        case "mend":
             for line in lines:
-                getattr(line, name)(now + value)
+                line.mend()
         case "count":
             pass
         case _:
             raise NetworkError(
-                f"order {order!r}: must be change with conditions, cut or stall with 0 to "
-                f"{LONGEST_SECONDS:g} seconds, or count"
+                f"order {order!r}: must be change with conditions, cut or stall with seconds, mend, or count"
             )
-    return str(name)

@@ -16,6 +16,7 @@ from collections import Counter
 from kuglice.errors import NetworkError
 from kuglice.lab.network.conditions import Conditions
 from kuglice.lab.network.datagrams import Address, Datagrams
+from kuglice.lab.network.interruption import Interruption
 from kuglice.lab.network.line import Line
 from kuglice.lab.network.way import Way
 
@@ -50,6 +51,12 @@ class Proxy:
             reason = os.strerror(error.errno).lower() if error.errno and error.errno > 0 else error.strerror
             raise NetworkError(f"cannot listen on {host}:{port}: {reason}") from error
 
+    def interrupt(self, interruption: Interruption) -> None:
+        """Begin a cut or a stall of both directions now, whatever it says of when."""
+        interruption.begin(self.lines, asyncio.get_running_loop().time())
+        if interruption.kind == "cut":
+            self.reset()
+
     def reset(self) -> None:
         """Break every TCP connection off."""
         for writer in self._writers:
@@ -69,8 +76,8 @@ class Proxy:
                 return
             far_reader, far_writer = await asyncio.open_connection(*self._target)
             self._writers.add(far_writer)
-            # The line may have been cut while we connected.
-            if self._up.is_cut:
+            # The line may have been cut while we connected, and be whole again.
+            if self._up.is_cut or writer.is_closing():
                 return
             await asyncio.gather(
                 self._pump(reader, far_writer, self._up), self._pump(far_reader, writer, self._down)

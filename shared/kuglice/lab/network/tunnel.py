@@ -39,7 +39,7 @@ def run_tunnel(conditions: Conditions) -> None:
         loop.add_reader(server, _forward, server, client, down)
         paths = [f"/proc/{os.getpid()}/fd/{number}" for number in (server_namespace, client_namespace)]
         say(server_namespace=paths[0], client_namespace=paths[1])
-        await obey(lines, counter)
+        await obey(lines, counter, lambda one: one.begin(lines, loop.time()))
 
     asyncio.run(carry())
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from kuglice.errors import NetworkError
 from kuglice.lab.network.conditions import Conditions
@@ -86,6 +88,33 @@ def test_a_cut_loses_and_a_stall_holds():
     line.stall(until=3.0)
     assert line.packet(2.0, 100) == (3.05,)
     assert line.packet(3.5, 100) == (3.55,)
+
+
+ORDERS = st.lists(
+    st.tuples(st.sampled_from(["cut", "stall"]), st.integers(0, 30), st.integers(0, 30)), max_size=8
+).map(lambda orders: sorted(orders, key=lambda order: order[1]))
+"""Each with the second at which it comes, and the seconds that it lasts."""
+
+
+@given(ORDERS, st.integers(0, 60))
+def test_interruptions_that_overlap_last_until_the_last_of_them_is_over(orders, now):
+    line = Line(Conditions(), 0)
+    for kind, at, seconds in orders:
+        if at <= now:
+            getattr(line, kind)(until=float(at + seconds))
+    ends = {
+        kind: max((at + seconds for each, at, seconds in orders if each == kind and at <= now), default=0)
+        for kind in ("cut", "stall")
+    }
+    expected = () if now < ends["cut"] else (float(max(now, ends["stall"])),)
+    assert line.packet(float(now), 100) == expected
+
+
+def test_a_line_that_is_mended_is_cut_no_longer():
+    line = Line(Conditions(), 0)
+    line.cut(until=9.0)
+    line.mend()
+    assert line.packet(1.0, 100) == (1.0,)
 
 
 def test_a_stream_loses_nothing_but_waits_for_the_retransmission():

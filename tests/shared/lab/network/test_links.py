@@ -146,8 +146,10 @@ def test_a_stall_holds_bytes_and_loses_none(link, echo):
 
 
 def test_what_cannot_be_ordered_is_refused_in_words(link):
-    with pytest.raises(NetworkError, match="cut"):
+    with pytest.raises(NetworkError, match="cut of -1 seconds: must be 0 to 3600 seconds"):
         link.cut(-1.0)
+    with pytest.raises(NetworkError, match="stall of 3601 seconds: must be 0 to 3600 seconds"):
+        link.stall(3601.0)
     assert link.counts() == {}
 
 
@@ -163,7 +165,10 @@ def test_a_cut_resets_connections_of_the_proxy_and_refuses_new_ones_until_it_is_
                 assert not alive(client)
                 assert not alive(server)
                 assert not alive(refused)
-            link.cut(0.0)
+            link.cut(1.0)
+            with socket.create_connection(address) as refused:
+                assert not alive(refused), "a longer cut stays"
+            link.mend()
             with socket.create_connection(address) as again:
                 threading.Timer(0.0, again.sendall, (b"x",)).start()
                 accepted, _ = listening.accept()
