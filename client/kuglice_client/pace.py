@@ -9,6 +9,7 @@ from collections.abc import Callable
 from kuglice import World
 from kuglice.budget import tick_budget
 from kuglice.errors import JoinError, StepError
+from kuglice.wording import of_many
 
 __all__ = ["judge_pace", "step_seconds"]
 
@@ -46,8 +47,8 @@ def judge_pace(seconds: float, *, rate: float, balls: int) -> None:
     if speed >= PREDICTING:
         return
     told = (
-        f"a tick of {balls} balls takes {1000 * seconds:.3g} ms on this machine, the server makes one every "
-        f"{1000 / rate:.3g} ms: {speed:.2g} times real time"
+        f"a tick of {balls} {of_many(balls, 'ball')} takes {1000 * seconds:.3g} ms on this machine, the server makes "
+        f"one every {1000 / rate:.3g} ms: {speed:.2g} times real time"
     )
     if speed < 1.0:
         raise JoinError(f"{told}, at least 1 needed to follow: look at a part of it with `kuglice view`")

@@ -15,6 +15,7 @@ from kuglice.inputs import Input, pack
 from kuglice.model import Model
 from kuglice.planner import plan
 from kuglice.scene import Scene
+from kuglice.wording import of_many
 
 __all__ = ["World"]
 
@@ -334,7 +335,8 @@ class World:
         return self._core.nodes()
 
     def __repr__(self) -> str:
-        return f"World({self._scene.title!r}, tick {self.tick}, {self.count} balls, {self._model})"
+        balls = of_many(self.count, "ball")
+        return f"World({self._scene.title!r}, tick {self.tick}, {self.count} {balls}, {self._model})"
 
     def _repr_png_(self) -> bytes | None:
         """None without Pillow: a notebook then shows the text."""

@@ -226,3 +226,8 @@ def test_threads_show_in_nothing(contacts):
 def test_threads_out_of_bounds_are_refused(threads):
     with pytest.raises(kg.errors.LimitError, match="at least 1 and at most 256"):
         kg.World(kg.scenes.gas(n=10), threads=threads)
+
+
+@pytest.mark.parametrize(("count", "said"), [(1, "1 ball,"), (2, "2 balls,")])
+def test_it_says_how_many_balls_it_has(count, said):
+    assert said in repr(kg.World(kg.scenes.gas(n=count)))

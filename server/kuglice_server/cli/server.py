@@ -19,6 +19,7 @@ from kuglice.cli.stop import stop_on_signals
 from kuglice.cli.threads import Threads
 from kuglice.cli.writable import writable_file
 from kuglice.protocol import DEFAULT_ENDPOINT, check_hosts
+from kuglice.wording import of_many
 from kuglice_server.server import Server
 from kuglice_server.settings import ServerSettings
 
@@ -123,7 +124,8 @@ def server(
     with Server(chosen, settings) as running:
         where = ", ".join((*settings.listen, *settings.connect))
         STDERR.print(
-            f"world {settings.world} of {running.world.count:,} balls on {where}: {running.world.model}"
+            f"world {settings.world} of {running.world.count:,} {of_many(running.world.count, 'ball')}"
+            f" on {where}: {running.world.model}"
         )
         with STDERR.status("starting") as line:
             running.run(stop, seconds=seconds, until_empty=until_empty, each_tick=_teller(line))

@@ -10,6 +10,7 @@ import numpy as np
 
 from kuglice.errors import InputError
 from kuglice.inputs.kinds import OWNER, Attract, Input, Kick, Remove, Spawn, Thrust
+from kuglice.wording import of_many
 
 if TYPE_CHECKING:
     from kuglice.scene import Scene
@@ -63,7 +64,9 @@ def _spawn(given: Spawn, scene: Scene, world: World) -> None:
     _at_most(given, "mass", given.mass, limits.max_mass if limits else None)
     _at_most(given, "speed", _length(given.vx, given.vy), limits.max_speed if limits else None)
     if given.client != OWNER and world.count >= scene.limits.max_balls:
-        raise _refused(given, f"{world.count} balls, at most {scene.limits.max_balls}")
+        raise _refused(
+            given, f"{world.count} {of_many(world.count, 'ball')}, at most {scene.limits.max_balls}"
+        )
     _in_box(given, given.x, given.y, given.radius, scene)
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from kuglice.errors import InputError
 from kuglice.inputs.kinds import Join
+from kuglice.wording import of_many
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -40,11 +41,13 @@ def join(scene: Scene, world: World, client: int, sequence: int = 0) -> Join:
         raise InputError(f"join: client {client} has joined already")
     if len(joined) >= rules.max_players:
         raise InputError(
-            f"join: client {client} refused at {len(joined)} players, at most {rules.max_players}"
+            f"join: client {client} refused at {len(joined)} {of_many(len(joined), 'player')},"
+            f" at most {rules.max_players}"
         )
     if world.count >= scene.limits.max_balls:
         raise InputError(
-            f"join: client {client} refused at {world.count} balls, at most {scene.limits.max_balls}"
+            f"join: client {client} refused at {world.count} {of_many(world.count, 'ball')},"
+            f" at most {scene.limits.max_balls}"
         )
     x, y = _place(rules, scene, world)
     return Join(client=client, sequence=sequence, x=x, y=y, radius=rules.radius, mass=rules.mass)

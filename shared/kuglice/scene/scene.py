@@ -50,6 +50,8 @@ class Scene(BaseModel):
     description: str = ""
     box: Box
     walls: Flag = True
+    """Whether the sides of the box hold balls in; without walls they fly on. There are no periodic boundaries: what
+    leaves on one side never comes in on the other."""
     restitution: Fraction = 1.0
     tick_rate: Annotated[Positive, Field(le=1e6)] = 60.0
     """Ticks per second."""

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
+import re
+
 import pytest
 
 import kuglice as kg
@@ -145,3 +148,30 @@ class TestReasons:
     def test_a_scene_of_pegs_alone_has_a_model(self):
         scene = kg.Scene(box=(0, 0, 9, 9), balls=kg.Balls(position=[(3, 3)], radius=1.0, mass=float("inf")))
         assert kg.plan(scene).substeps == 1
+
+    @pytest.mark.parametrize("contacts", [None, "overlap", "event"])
+    @pytest.mark.parametrize("balls", [0, 1, 2])
+    def test_one_ball_is_one_ball(self, balls, contacts):
+        """Whatever else is said of it: for a scene that steps exactly, one that cannot, one that grows."""
+        here = kg.Balls(position=[(3, 3), (8, 3)], radius=1.0, velocity=[(5, 0), (5, 0)])[:balls]
+        spawn = kg.SpawnLimits(max_radius=1, max_mass=1, max_speed=1)
+        for accuracy, restitution, forces, limits in itertools.product(
+            ("visual", "exact", 1e-9),
+            (1.0, 0.5),
+            ((), (kg.Gravity(0.0, -10.0),), (kg.Spring(0.0, 0.0, stiffness=1.0), kg.Drag(1.0))),
+            (kg.InputLimits(), kg.InputLimits(spawn=spawn)),
+        ):
+            scene = kg.Scene(
+                box=(0, 0, 20, 20),
+                balls=here,
+                restitution=restitution,
+                forces=forces,
+                accuracy=accuracy,
+                model=kg.ModelPins(contacts=contacts),
+                limits=limits,
+            )
+            try:
+                said = " ".join(kg.plan(scene).reasons)
+            except (PlanError, ModelError) as error:
+                said = str(error)
+            assert not re.search(r"\b1 (balls|substeps)\b", said)
