@@ -58,7 +58,7 @@ class Client(Closing):
         self.link = Link(settings.connect, deadline=deadline, stop=self.stop)
         self.renewal = Renewal(self.link, DatagramWatch(self.link))
         try:
-            waiting = Waiting(self.link, deadline=deadline, stop=self.stop)
+            waiting = Waiting(self.link, began=began, wait=settings.wait, stop=self.stop)
             world = settings.world or find_world(waiting)
             self._keys = Keys(world)
             # First the stream, then the rest: what happens while we join is in its buffer.
@@ -107,8 +107,9 @@ class Client(Closing):
     def turn(self, now: float) -> float:
         """Take in what came, predict up to now, send. `frame` is to be called for each frame that is drawn of it.
 
-        Returns how far the drawn state is from one tick to the next. Raises JoinError if the server will not have us
-        any more.
+        Returns how far the drawn state is from one tick to the next. Where the server was started again, or has given
+        our player up, this joins again first, which takes the settings' `wait` at most. Raises JoinError if that fails,
+        or the server will not have us any more.
         """
         self.replica.receive(now)
         self.replica.heal(now)
@@ -225,10 +226,10 @@ class Client(Closing):
             log.warning("world %s was restarted: it is joined again", self._keys.world)
         else:
             log.warning("the server has given client %s up: it joins again", self.settings.name)
-        deadline = time.monotonic() + self.settings.wait
-        joined = self._join(Waiting(self.link, deadline=deadline, stop=self.stop))
+        began, wait = time.monotonic(), self.settings.wait
+        joined = self._join(Waiting(self.link, began=began, wait=wait, stop=self.stop))
         self.totals.rejoin(figures(self.replica, self.screen))
-        self._enter(joined, deadline)
+        self._enter(joined, began + wait)
 
     def _seen(self) -> tuple[Ids, Floats]:
         """Ids and positions of the balls of the last frame."""

@@ -28,7 +28,7 @@ from kuglice_client.link import Asked, NotYetError, Waiting
 __all__ = ["Joined", "Who", "arrival", "find_world", "join"]
 
 SNAPSHOT_SECONDS = 30.0
-"""For a state to arrive: a large one takes its time on a thin link."""
+"""For a state to arrive before it is asked for again: a large one takes its time on a thin link."""
 
 Who = tuple[str, str]
 """Name and session."""
@@ -61,7 +61,7 @@ def find_world(waiting: Waiting) -> str:
 
     def attempt() -> list[Payload]:
         try:
-            return link.ask(ANY_STATUS, None, timeout=waiting.answer_seconds).wait(waiting.stop)
+            return link.ask(ANY_STATUS, None, timeout=waiting.answer_seconds()).wait(waiting.stop)
         except JoinError as error:
             raise NotYetError(
                 f"no world is served at {link.endpoints}: is the server behind it running?"
@@ -77,8 +77,8 @@ def find_world(waiting: Waiting) -> str:
 def join(waiting: Waiting, keys: Keys, who: Who | None) -> Joined:
     """Join as the client `who`, whose liveliness token is declared already, or as a spectator (None).
 
-    Raises JoinError at the deadline, when refused, or when this build would step to other bits than the
-    server.
+    Raises JoinError when refused, when this build would step to other bits than the server, or, with what it waited
+    for and how long, when the time to wait is over: no answer is waited for any longer, not even the state.
     """
     return waiting.until_done(lambda: _attempt(waiting, keys, who))
 
@@ -92,10 +92,12 @@ def arrival(who: Who) -> ArrivalRequest:
 def _attempt(waiting: Waiting, keys: Keys, who: Who | None) -> Joined:
     link, stop = waiting.link, waiting.stop
     asked_at = time.monotonic()
-    asked_about = link.ask(keys.about, None, timeout=waiting.answer_seconds)
+    asked_about = link.ask(keys.about, None, timeout=waiting.answer_seconds())
     # At once and not in turn: on a long way every question costs a round trip, and a state takes several.
     asked_snapshot = link.ask(
-        keys.history, SnapshotRequest(epoch=ANY_EPOCH, at=None), timeout=SNAPSHOT_SECONDS
+        keys.history,
+        SnapshotRequest(epoch=ANY_EPOCH, at=None),
+        timeout=waiting.answer_seconds(SNAPSHOT_SECONDS),
     )
     admission = None if who is None else _Admission(waiting, keys, who)
     try:
@@ -166,4 +168,4 @@ class _Admission:
             self._asked = self._ask()
 
     def _ask(self) -> Asked:
-        return self._waiting.link.ask(self._key, arrival(self._who), timeout=self._waiting.answer_seconds)
+        return self._waiting.link.ask(self._key, arrival(self._who), timeout=self._waiting.answer_seconds())

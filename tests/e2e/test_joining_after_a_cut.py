@@ -18,13 +18,13 @@ DEADLINE_SECONDS = 30.0
 
 
 def test_a_world_is_found_by_a_session_of_before_the_server_was_there(start, scene, endpoint):
-    deadline = time.monotonic() + DEADLINE_SECONDS
+    began = time.monotonic()
     before = open_session(server_configuration(listen=[endpoint], connect=[]))
-    link = Link((endpoint,), deadline=deadline, stop=threading.Event())
+    link = Link((endpoint,), deadline=began + DEADLINE_SECONDS, stop=threading.Event())
     close_session(before, [])
     until(lambda: not link.kinds, what="the loss of the link")
     server = start("server", scene, "--listen", endpoint, "--json")
-    assert find_world(Waiting(link, deadline=deadline, stop=threading.Event()))
+    assert find_world(Waiting(link, began=began, wait=DEADLINE_SECONDS, stop=threading.Event()))
     assert link.kinds
     link.close(5.0)
     server.signal(2)

@@ -15,7 +15,12 @@ __all__ = ["AsJson", "FilmRate", "FilmStyle", "Render", "Seconds", "SummaryJson"
 Seconds = Annotated[
     float | None, typer.Option(min=0.0, help="Leave after this long. [default: on SIGINT or SIGTERM]")
 ]
-Wait = Annotated[float, typer.Option(min=0.0, help="Seconds to keep trying to join.")]
+Wait = Annotated[
+    float,
+    typer.Option(
+        min=0.0, help="Seconds that joining may take: then it ends with an error that says what did not come."
+    ),
+]
 Render = Annotated[
     Path | None,
     typer.Option(

@@ -18,8 +18,13 @@ log = logging.getLogger(__name__)
 T = TypeVar("T")
 
 RETRY_SECONDS = 0.03
+SHORTEST_SECONDS = 0.001
+"""That Zenoh is told to wait: none might mean without end."""
 ANSWER_SECONDS = 5.0
-LEAST_ANSWER_SECONDS = 1.0
+LEAST_SECONDS = 1.0
+"""Once there is a link, whatever the bound: whoever does not want to wait wants to know whether it can be joined."""
+FAIR_SECONDS = 0.5
+"""Who was given less to answer in, at the very end, tells nothing by its silence."""
 
 
 class NotYetError(JoinError):
@@ -27,12 +32,18 @@ class NotYetError(JoinError):
 
 
 class Waiting:
-    """Until `deadline`, in seconds of the monotonic clock, or until `stop` is set."""
+    """Until `wait` seconds after `began`, in seconds of the monotonic clock, or until `stop` is set.
 
-    def __init__(self, link: Link, *, deadline: float, stop: threading.Event) -> None:
+    All questions of a join are asked within that; where the link took it all to open, within a second from now on.
+    """
+
+    def __init__(self, link: Link, *, began: float, wait: float, stop: threading.Event) -> None:
         self.link = link
         self.stop = stop
-        self._deadline = deadline
+        self._wait = wait
+        self._deadline = max(began + wait, time.monotonic() + LEAST_SECONDS)
+        self._asked_late = False
+        self._why: str | None = None
 
     def until_done(self, attempt: Callable[[], T]) -> T:
         """What `attempt` returns, once it does not raise NotYetError. Raises JoinError when that is not waited for."""
@@ -44,15 +55,21 @@ class Waiting:
                 self.pause(why=str(error))
 
     def pause(self, why: str) -> None:
-        """Before the next attempt: a moment, in which a link that is lost is replaced. Raises JoinError with `why`."""
+        """Before the next attempt: a moment, in which a link that is lost is replaced.
+
+        Raises JoinError with `why`, and with the bound, when the time is over.
+        """
+        if self._why is None or not self._asked_late:
+            self._why = why
         if self.stop.wait(RETRY_SECONDS):
             raise JoinError("stopped while joining")
         if time.monotonic() > self._deadline:
-            raise JoinError(why)
+            raise JoinError(f"{self._why}; not joined within {self._wait:g} s (--wait)")
         if not self.link.renewed():
             self.link.renew_if_lost()
 
-    @property
-    def answer_seconds(self) -> float:
-        """To wait for one answer: until the deadline, but a second at least, and not for ever."""
-        return max(LEAST_ANSWER_SECONDS, min(ANSWER_SECONDS, self._deadline - time.monotonic()))
+    def answer_seconds(self, at_most: float = ANSWER_SECONDS) -> float:
+        """To wait for one answer that is asked for now: what is left, and `at_most` that before it is asked again."""
+        left = self._deadline - time.monotonic()
+        self._asked_late = left < FAIR_SECONDS
+        return max(SHORTEST_SECONDS, min(at_most, left))

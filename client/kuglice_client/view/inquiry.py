@@ -35,7 +35,7 @@ class Inquiry:
         """
 
         def attempt() -> Payload:
-            asked = self._link.ask(self._keys.view, None, timeout=waiting.answer_seconds)
+            asked = self._link.ask(self._keys.view, None, timeout=waiting.answer_seconds())
             try:
                 return asked.wait(waiting.stop)[0]
             except JoinError as error:

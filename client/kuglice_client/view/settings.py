@@ -19,8 +19,8 @@ class ViewSettings:
     """`rectangle`: left, bottom, right, top in metres of the scene.
 
     `margin`: metres around it that are followed too, for what comes in from there (None: half the shorter
-    side of a node). `budget`: bytes of payload per second (None: as many as there are). `wait`: seconds to keep
-    trying to join. Raises ProtocolError for numbers that cannot be.
+    side of a node). `budget`: bytes of payload per second (None: as many as there are). `wait`: seconds
+    that joining may take. Raises ProtocolError for numbers that cannot be.
     """
 
     rectangle: Rectangle
@@ -39,6 +39,8 @@ class ViewSettings:
             raise ProtocolError(f"margin {self.margin}: must be at least 0 and finite")
         if self.budget is not None and not self.budget > 0:
             raise ProtocolError(f"budget {self.budget}: must be above 0 bytes per second")
+        if not self.wait >= 0:
+            raise ProtocolError(f"wait {self.wait}: must be at least 0 seconds")
 
 
 def check_rectangle(rectangle: Rectangle) -> Rectangle:

@@ -59,7 +59,7 @@ class View(Closing):
         self.link = Link(settings.connect, deadline=deadline, stop=self.stop)
         self.renewal = Renewal(self.link, DatagramWatch(self.link))
         try:
-            waiting = Waiting(self.link, deadline=deadline, stop=self.stop)
+            waiting = Waiting(self.link, began=began, wait=settings.wait, stop=self.stop)
             self._keys = Keys(settings.world or find_world(waiting))
             self._inquiry = Inquiry(self.link, self._keys)
             about = self._inquiry.wait(waiting)
