@@ -6,7 +6,8 @@ the step faster or slower on purpose does. Counts repeat to the instruction on o
 so with another one than that of the figures differences are told and nothing fails.
 
 Valgrind runs the same code on every x86-64 processor but where a library asks what the processor can do. The C library
-does, for memcpy: it is told to do without the instructions that differ.
+does, for memcpy: it is told to do without the instructions that differ. The state hash does, for AVX2: its figure
+is that of a processor which has it.
 """
 
 from __future__ import annotations

@@ -4,8 +4,19 @@
 //! the ball's id with its numbers by 64 x 64 -> 128 bit multiplications whose halves are folded, the construction of
 //! Wang Yi's wyhash (public domain); the constants are its secret.
 
-use crate::team::{GRAIN, Team};
-use crate::{Balls, HeldKind, NO_BALL, State, Vec2};
+mod balls;
+// A build for processors that all have AVX2 goes without: safe code cannot tell its two versions apart.
+#[cfg(all(target_arch = "x86_64", not(target_feature = "avx2")))]
+mod fours;
+mod one_by_one;
+
+#[cfg(all(target_arch = "x86_64", not(target_feature = "avx2")))]
+use fours as fastest;
+#[cfg(not(all(target_arch = "x86_64", not(target_feature = "avx2"))))]
+use one_by_one as fastest;
+
+use crate::team::Team;
+use crate::{HeldKind, NO_BALL, State};
 
 const K0: u64 = 0xa076_1d64_78bd_642f;
 const K1: u64 = 0xe703_7ed1_a0b4_28db;
@@ -19,52 +30,6 @@ const K4: u64 = 0x1d8e_4e27_c47d_124f;
 fn fold(a: u64, b: u64) -> u64 {
     let product = u128::from(a) * u128::from(b);
     (product as u64) ^ ((product >> 64) as u64)
-}
-
-#[inline]
-fn ball(id: u64, position: Vec2, velocity: Vec2, radius: f64, mass: f64) -> u64 {
-    let here = fold(position.x.to_bits() ^ K0, position.y.to_bits() ^ K1);
-    let there = fold(velocity.x.to_bits() ^ K2, velocity.y.to_bits() ^ K3);
-    let shape = fold(radius.to_bits() ^ K1, mass.to_bits() ^ K2);
-    fold(
-        fold(here ^ id ^ K4, there.rotate_left(32) ^ K0) ^ K3,
-        shape ^ id.rotate_left(17) ^ K2,
-    )
-}
-
-/// Balls that a thread hashes at a time, at least: calling others takes as long as hashing some thousands.
-const MANY_BALLS: usize = 16 * GRAIN;
-
-fn balls(balls: &Balls, team: &Team) -> u64 {
-    let all = (&balls.id[..], &balls.position[..], &balls.velocity[..]);
-    let add = |left: u64, right: u64| left.wrapping_add(right);
-    let sum = || match balls.uniform() {
-        Some(shape) => team.share(
-            all,
-            MANY_BALLS,
-            &|(id, position, velocity)| {
-                let all = id.iter().zip(position).zip(velocity);
-                all.map(|((&id, &p), &v)| ball(id, p, v, shape.radius, shape.mass))
-                    .fold(0, add)
-            },
-            &add,
-        ),
-        None => team.share(
-            (all, &balls.radius[..], &balls.mass[..]),
-            MANY_BALLS,
-            &|((id, position, velocity), radius, mass)| {
-                let all = id.iter().zip(position).zip(velocity).zip(radius).zip(mass);
-                all.map(|((((&id, &p), &v), &r), &m)| ball(id, p, v, r, m))
-                    .fold(0, add)
-            },
-            &add,
-        ),
-    };
-    if balls.len() > MANY_BALLS {
-        team.enter(sum)
-    } else {
-        sum()
-    }
 }
 
 /// The hash that stands for a state.
@@ -96,7 +61,7 @@ pub(crate) fn state(state: &State, team: &Team) -> u64 {
         add(held.vector.y.to_bits());
         add(held.strength.to_bits());
     }
-    fold(balls(&state.balls, team) ^ K3, rest ^ K2).wrapping_add(rest)
+    fold(balls::sum(&state.balls, team) ^ K3, rest ^ K2).wrapping_add(rest)
 }
 
 /// A sum and a word, mixed.
@@ -105,49 +70,4 @@ pub(crate) fn mixed(sum: u64, word: u64) -> u64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::NewBall;
-
-    fn sample() -> State {
-        let mut state = State::default();
-        for i in 0..5u32 {
-            let x = f64::from(i);
-            let ball = NewBall {
-                position: Vec2::new(x, -x),
-                velocity: Vec2::new(1.0, x),
-                radius: 0.5,
-                mass: 1.0,
-            };
-            state.balls.push(u64::from(i), ball);
-        }
-        state
-    }
-
-    #[test]
-    fn every_number_counts() {
-        let alone = Team::default();
-        let first = super::state(&sample(), &alone);
-        let changes: [fn(&mut State); 9] = [
-            |s| s.tick += 1,
-            |s| s.next_id += 1,
-            |s| s.variable_time = 0.5,
-            |s| s.counters.wall_hits += 1,
-            |s| s.balls.position[2].x += 1e-16 + f64::EPSILON * 4.0,
-            |s| s.balls.velocity[4].y = -0.0,
-            |s| s.balls.velocity.swap(1, 2),
-            |s| s.balls.id[4] = 17,
-            |s| {
-                s.players.push(crate::Player {
-                    client: 0,
-                    ball: None,
-                })
-            },
-        ];
-        for change in changes {
-            let mut other = sample();
-            change(&mut other);
-            assert_ne!(super::state(&other, &alone), first);
-        }
-    }
-}
+mod tests;
