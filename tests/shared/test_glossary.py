@@ -1,4 +1,4 @@
-"""Terms at the end of ARCHITECTURE.md are names in the code, or told to users; those under "never" name nothing there."""
+"""Terms at the end of ARCHITECTURE.md are names in the code, or told to users; those under "never" name nothing."""
 
 from __future__ import annotations
 
