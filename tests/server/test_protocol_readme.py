@@ -30,7 +30,7 @@ from kuglice_server.counters import Counters
 from kuglice_server.description import Description
 from kuglice_server.publish import Publisher
 from kuglice_server.regions import RegionPublisher, choose_terms
-from shared.protocol.readme import TEXT, table
+from shared.protocol.readme import PROSE, table
 
 WORLD = "small"
 KEYS = Keys(WORLD)
@@ -81,7 +81,7 @@ def test_what_a_server_tells_and_answers_comes_as_told():
 
 
 def test_scenes_are_told_without_groups_and_balls():
-    assert "without groups; no bytes in the four of balls" in TEXT
+    assert "without groups; no bytes in the four of balls" in PROSE
     world = kg.World(kg.scenes.gas(n=10))
     settings = ServerSettings(world=WORLD)
     terms = choose_terms(world, rate=10.0)
@@ -140,4 +140,4 @@ def test_numbers_in_the_text_are_those_of_the_server():
         r"more than (\d+) who wait to be let in": players.MAX_NAMES,
         r"waited for \((\d+) s by default\)": int(ServerSettings(world=WORLD).grace),
     }.items():
-        assert re.findall(text, TEXT) == [str(value)], text
+        assert re.findall(text, PROSE) == [str(value)], text

@@ -7,9 +7,11 @@ from pathlib import Path
 
 import kuglice.protocol
 
-__all__ = ["TEXT", "table", "vectors"]
+__all__ = ["PROSE", "TEXT", "table", "vectors"]
 
 TEXT = (Path(kuglice.protocol.__file__).parent / "README.md").read_text()
+PROSE = " ".join(TEXT.split())
+"""Wherever its lines end."""
 
 
 def table(*columns: str) -> list[list[str]]:

@@ -17,7 +17,7 @@ from kuglice.protocol import Keys, Message, Nodes, decode, encode
 from kuglice.protocol.access import access_control
 from kuglice.protocol.messages.envelope import CompactMessage
 from kuglice.protocol.session import MAX_MESSAGE_BYTES
-from shared.protocol.readme import TEXT, table, vectors
+from shared.protocol.readme import PROSE, table, vectors
 
 KEYS = Keys("w")
 ROWS = table("key", "what", "from", "to", "quality")
@@ -40,7 +40,7 @@ def made(key: str) -> str:
 def test_every_key_is_told_and_no_other():
     names = [name for name, kind in vars(Keys).items() if isinstance(kind, property)]
     assert sorted(made(row[0]) for row in ROWS) == sorted(getattr(KEYS, name) for name in names)
-    assert f"`{protocol.ANY_STATUS}`" in TEXT
+    assert f"`{protocol.ANY_STATUS}`" in PROSE
 
 
 def test_keys_of_one_node_and_one_session_look_as_told():
@@ -51,7 +51,7 @@ def test_keys_of_one_node_and_one_session_look_as_told():
         for key in (KEYS.input("ada", "s1"), KEYS.client("ada", "s1"))
     }
     assert {region} | sessions <= told
-    assert f"`{{pace}}` is 0 to {protocol.PACES - 1}" in TEXT
+    assert f"`{{pace}}` is 0 to {protocol.PACES - 1}" in PROSE
 
 
 def denied(*message: str) -> set[str]:
@@ -145,7 +145,7 @@ def test_the_record_of_the_step_is_laid_out_as_told():
         assert int(offset) == at
         at += struct.calcsize("<" + sizes[kind])
     assert at == RECORD.size == _core.INPUT_BYTES
-    assert f"{RECORD.size} bytes" in TEXT
+    assert f"{RECORD.size} bytes" in PROSE
     rows = table("kind", "name", "ball", "numbers")
     assert [row[1] for row in rows] == list(_core.INPUT_KINDS)
     for number, name, ball, numbers in rows:
@@ -162,9 +162,9 @@ def test_numbers_in_the_text_are_those_of_the_code():
         r"has not passed them, up to (\d+);": protocol.MAX_TOLD_TICKS,
         r"all that are unacknowledged, at most (\d+),": protocol.MAX_INPUTS,
     }.items():
-        assert re.findall(text, TEXT) == [str(value)], text
+        assert re.findall(text, PROSE) == [str(value)], text
     assert MAX_MESSAGE_BYTES == (1 << 20) + (64 << 10)
-    assert "beyond 1 MiB and 64 KiB, key and envelope included" in TEXT
+    assert "beyond 1 MiB and 64 KiB, key and envelope included" in PROSE
 
 
 def test_a_path_says_the_quarters_that_the_text_names():
@@ -172,7 +172,7 @@ def test_a_path_says_the_quarters_that_the_text_names():
     corners = [nodes.rectangle(node)[:2] for node in range(4)]
     assert corners == [(0.0, 0.0), (2.0, 0.0), (0.0, 2.0), (2.0, 2.0)]
     assert [nodes.path(node) for node in range(4)] == [(0,), (1,), (2,), (3,)]
-    assert "0 left bottom, 1 right bottom, 2 left top, 3 right\ntop" in TEXT
+    assert "0 left bottom, 1 right bottom, 2 left top, 3 right top" in PROSE
 
 
 @pytest.mark.parametrize(("numbers", "size"), [(False, 1), (True, 2)])
@@ -180,4 +180,4 @@ def test_compressed_bytes_begin_with_how(numbers, size):
     data = bytes(range(64)) * 40 + b"tail"
     assert protocol.compress(b"ab", numbers=numbers)[0] == 0
     assert protocol.compress(data, numbers=numbers)[0] == size
-    assert "`00` plain, `01` zlib, `02` zlib over" in TEXT
+    assert "`00` plain, `01` zlib, `02` zlib over" in PROSE
