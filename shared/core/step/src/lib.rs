@@ -55,4 +55,4 @@ pub use vec2::Vec2;
 pub use world::World;
 
 /// Changes when, and only when, some state would step to other bits than before.
-pub const STEP_VERSION: u32 = 1;
+pub const STEP_VERSION: u32 = 2;

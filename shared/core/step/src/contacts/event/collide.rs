@@ -10,9 +10,9 @@ use crate::{Balls, Vec2};
 
 impl Law {
     /// A ball on its path, at that place and time.
-    fn body(&self, paths: &Paths, balls: &Balls, index: usize, path: Vec2, time: f64) -> Body {
+    fn body(&self, paths: &Paths, balls: &Balls, index: usize, velocity: Vec2, time: f64) -> Body {
         Body {
-            velocity: path + paths.ahead(index, time),
+            velocity,
             acceleration: if self.motion == Motion::Straight {
                 Vec2::ZERO
             } else {
@@ -22,6 +22,7 @@ impl Law {
             radius: radius(balls, index),
             mass: mass(balls, index),
             again: self.is_again(paths.hits[index], paths.since[index], time),
+            crowded: Law::is_crowded(paths.hits[index]),
         }
     }
 
@@ -34,25 +35,21 @@ impl Law {
         time: f64,
         changed: &mut Vec<usize>,
     ) -> bool {
-        let (p1, path1) = paths.piece(balls, first).at(self.motion, time);
-        let (p2, path2) = paths.piece(balls, second).at(self.motion, time);
+        let (p1, v1) = paths.piece(balls, first).at(self.motion, time);
+        let (p2, v2) = paths.piece(balls, second).at(self.motion, time);
         let along = normal(p1, p2);
         let support = Support::new(first, Some(second), along * (1.0 / along.length()));
         if paths.supports.hold(&support) {
             return false;
         }
         let bodies = [
-            self.body(paths, balls, first, path1, time),
-            self.body(paths, balls, second, path2, time),
+            self.body(paths, balls, first, v1, time),
+            self.body(paths, balls, second, v2, time),
         ];
         let Some(outcome) = self.of_pair(along, &bodies[0], &bodies[1]) else {
             return false;
         };
         let [w1, w2] = outcome.velocities;
-        if outcome.fate == Fate::Hold {
-            paths.deferred.push((first, bodies[0].velocity - w1));
-            paths.deferred.push((second, bodies[1].velocity - w2));
-        }
         let struck = [(first, p1, w1), (second, p2, w2)];
         let bears = !matches!(outcome.fate, Fate::Bounce(_));
         paths.strike(balls, time, &struck, bears.then_some(support), changed);
@@ -73,15 +70,12 @@ impl Law {
         if paths.supports.hold(&support) {
             return false;
         }
-        let (place, path) = paths.piece(balls, index).at(self.motion, time);
-        let body = self.body(paths, balls, index, path, time);
+        let (place, velocity) = paths.piece(balls, index).at(self.motion, time);
+        let body = self.body(paths, balls, index, velocity, time);
         let Some(outcome) = self.of_wall(wall, &body, paths.is_alone(index)) else {
             return false;
         };
         let after = outcome.velocities;
-        if outcome.fate == Fate::Hold {
-            paths.deferred.push((index, body.velocity - after));
-        }
         let bears = !matches!(outcome.fate, Fate::Bounce(_));
         paths.strike(
             balls,

@@ -11,18 +11,21 @@
 //!   1/1024 of the substep of its last hit, the contact time of Luding & McNamara 1998 (doi 10.1007/s100350050017),
 //!   which ends collapses that no acceleration drives. A ball that touches no other and would leave a wall for less
 //!   than a substep comes to rest on it. Piles so keep a jitter too small to see; they would need endless collisions
-//!   to lose it.
-//!
-//! Between kicks a third case appears: a ball whose path leads into the contact while the ball itself leaves it. It
-//! would be back within the substep; it is held there, and gets its velocity back at the end.
+//!   to lose it. Drag would take it from them all the same, and the collisions would double with every halving: from
+//!   the 16th hit of a substep on, balls that are pressed together part at a speed that keeps them apart for 1/4 of it,
+//!   under forces that vary.
 
-use super::paths::Motion;
+use super::paths::{Motion, Paths};
 use crate::Vec2;
 use crate::contacts::exchange::{Shares, transfer};
 use crate::walls::Wall;
 
 /// Contact time, as a part of the substep.
 const CONTACT_TIME: f64 = 1.0 / 1024.0;
+/// From so many hits in a substep on, a ball is in a crowd that drag may bring to rest.
+const CROWDED_HITS: u32 = 16;
+/// The shortest bounce there, as a part of the substep.
+const LEAST_BOUNCE: f64 = 1.0 / 4.0;
 /// A fall through this part of a radius is taken for rounding.
 const ROUNDING_FALL: f64 = 1e-12;
 /// The part of an acceleration below which what contacts leave of it is rounding.
@@ -33,6 +36,8 @@ pub(super) struct Law {
     pub(super) motion: Motion,
     restitution: f64,
     length: f64,
+    /// The least speed at which balls in a crowd part, per acceleration into their contact.
+    least: f64,
 }
 
 /// A ball at a contact.
@@ -45,6 +50,8 @@ pub(super) struct Body {
     pub(super) mass: f64,
     /// It was hit within the contact time.
     pub(super) again: bool,
+    /// It was hit very often.
+    pub(super) crowded: bool,
 }
 
 /// What comes of a contact.
@@ -68,6 +75,8 @@ struct Meeting {
     slow: f64,
     /// A ball was hit within the contact time.
     again: bool,
+    /// A ball was hit very often.
+    crowded: bool,
     /// The contact is with a wall, and nothing else is near.
     alone: bool,
 }
@@ -79,18 +88,21 @@ pub(super) enum Fate {
     Bounce(f64),
     /// It ends, and the contact bears the acceleration.
     Rest,
-    /// There is none; the path is stopped, the velocity kept for later.
-    Hold,
     /// Nothing.
     Pass,
 }
 
 impl Law {
-    pub(super) fn new(motion: Motion, restitution: f64, length: f64) -> Law {
+    pub(super) fn new(paths: &Paths, restitution: f64) -> Law {
         Law {
-            motion,
+            motion: paths.motion,
             restitution,
-            length,
+            length: paths.length,
+            least: if paths.varies {
+                0.5 * LEAST_BOUNCE * paths.length
+            } else {
+                0.0
+            },
         }
     }
 
@@ -101,6 +113,7 @@ impl Law {
             radius,
             slow,
             again,
+            crowded,
             alone,
         } = meeting;
         // Of either sign: a contact that rounding has left a hair too early would not be predicted again.
@@ -108,6 +121,9 @@ impl Law {
             return Fate::Rest;
         }
         if approach > 0.0 {
+            if crowded && approach < pressing * self.least {
+                return Fate::Bounce(pressing * self.least / approach);
+            }
             if self.restitution == 1.0 {
                 return Fate::Bounce(1.0);
             }
@@ -120,10 +136,7 @@ impl Law {
                 self.restitution
             });
         }
-        match self.motion {
-            Motion::Kicked if pressing > 0.0 => Fate::Hold,
-            _ => Fate::Pass,
-        }
+        Fate::Pass
     }
 
     /// An acceleration between two balls, or 0 if it is no more than what rounding leaves of theirs.
@@ -133,6 +146,11 @@ impl Law {
         } else {
             0.0
         }
+    }
+
+    /// Whether a ball that was hit so often is in a crowd.
+    pub(super) fn is_crowded(hits: u32) -> bool {
+        hits >= CROWDED_HITS
     }
 
     /// Whether a ball that was hit so often, last at `since`, was hit within the contact time.
@@ -157,11 +175,12 @@ impl Law {
             radius: first.radius.min(second.radius),
             slow: gain,
             again: first.again || second.again,
+            crowded: first.crowded || second.crowded,
             alone: false,
         });
         let restitution = match fate {
             Fate::Bounce(restitution) => restitution,
-            Fate::Rest | Fate::Hold => 0.0,
+            Fate::Rest => 0.0,
             Fate::Pass => return None,
         };
         let shares = Shares::new(first.mass, second.mass, restitution)?;
@@ -192,11 +211,12 @@ impl Law {
             radius: ball.radius,
             slow: ball.gain,
             again: ball.again,
+            crowded: ball.crowded,
             alone,
         });
         let away = match fate {
             Fate::Bounce(restitution) => restitution * approach,
-            Fate::Rest | Fate::Hold => 0.0,
+            Fate::Rest => 0.0,
             Fate::Pass => return None,
         };
         Some(Outcome {

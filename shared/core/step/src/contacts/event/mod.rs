@@ -2,8 +2,8 @@
 //! Wainwright 1959, doi 10.1063/1.1730376, cut at the ticks so that nothing but the state outlives one).
 //!
 //! Without forces, or under a constant acceleration, balls move along parabolas and all is exact but for rounding.
-//! Under other forces a tick is kick - drift with collisions - kick; a hit at time t of a tick of length h exchanges
-//! the velocities v + a (t - h/2) that the balls have there, which keeps second order across hits.
+//! Under other forces they move along the parabolas of what they feel at the start, and at the end half of what has
+//! changed since is made up for: velocity Verlet, with collisions on the way.
 //!
 //! Equal times are taken in order of (lower id, higher id), walls behind balls. What rounding leaves overlapping
 //! collides at once if it approaches and is left alone if it recedes (Bannerman et al., arXiv 1211.6718). Contacts at
@@ -27,13 +27,14 @@ mod tests;
 
 use super::{Contacts, EVENT_LIMIT, Substep};
 use crate::force::{Acceleration, Body, Field};
+use crate::team::GRAIN;
 use crate::walls::Walls;
 use crate::{Balls, Error, Vec2};
 
 use budget::Budget;
 use first::First;
 use groups::Grouped;
-use paths::{Motion, Paths};
+use paths::{Paths, Pull};
 use piece::{Piece, radius};
 use queue::{Event, Party};
 use sequence::Sequence;
@@ -64,10 +65,14 @@ impl Contacts for EventDriven {
     fn advance(&mut self, substep: &mut Substep<'_>) -> Result<(), Error> {
         self.begin(substep);
         self.first.prepare(&mut self.paths, substep);
+        if self.paths.varies {
+            substep.last.keep(substep.balls, substep.team);
+        }
         if let Some(grouped) = &mut self.grouped
             && grouped.run(&self.paths, substep, self.first.walls())
         {
-            *substep.finite = true;
+            *substep.finite = !self.paths.varies;
+            self.make_up(substep);
             return Ok(());
         }
         *substep.finite = false;
@@ -80,7 +85,8 @@ impl Contacts for EventDriven {
         substep.last.keep(substep.balls, substep.team);
         self.sequence
             .run(&mut self.paths, substep, &mut budget, self.first.lists_mut())?;
-        self.end(substep);
+        self.paths.end(substep.balls, substep.team);
+        self.make_up(substep);
         Ok(())
     }
 }
@@ -96,62 +102,51 @@ impl EventDriven {
     }
 
     fn begin(&mut self, substep: &mut Substep<'_>) {
-        let balls = &mut *substep.balls;
+        let balls = &*substep.balls;
         let (dt, elastic, team) = (substep.dt, substep.rules.restitution() == 1.0, substep.team);
         match substep.field {
             Field::None(_) => self
                 .paths
-                .begin(balls, (dt, elastic), Motion::Straight, team, None, |_| Vec2::ZERO),
+                .begin(balls, (dt, elastic), Pull::None, team, |_| Vec2::ZERO),
             Field::Constant(field) => {
                 self.paths
-                    .begin(balls, (dt, elastic), Motion::Curved, team, Some(field.0), |_| {
-                        field.0
-                    })
+                    .begin(balls, (dt, elastic), Pull::Common(field.0), team, |_| field.0)
             }
             Field::Sum(field) => {
                 // Constant for all but fixed balls: still exact, by the slower roots.
-                let motion = if field.is_constant() {
-                    Motion::Curved
+                let pull = if field.is_constant() {
+                    Pull::Constant
                 } else {
-                    Motion::Kicked
+                    Pull::Varying
                 };
-                self.paths
-                    .begin(balls, (dt, elastic), motion, team, None, |body| {
-                        field.at(substep.time, &body)
-                    });
-            }
-        }
-        if self.paths.motion == Motion::Kicked {
-            substep.last.keep(balls, substep.team);
-            for (velocity, acceleration) in balls.velocity.iter_mut().zip(&self.paths.acceleration) {
-                *velocity += *acceleration * (0.5 * substep.dt);
+                self.paths.begin(balls, (dt, elastic), pull, team, |body| {
+                    field.at(substep.time, &body)
+                });
             }
         }
     }
 
-    fn end(&mut self, substep: &mut Substep<'_>) {
+    /// Gives balls that have come to the end half of what their accelerations have changed by.
+    fn make_up(&self, substep: &mut Substep<'_>) {
+        let (true, Field::Sum(field)) = (self.paths.varies, substep.field) else {
+            return;
+        };
+        let (time, half) = (substep.time + substep.dt, 0.5 * substep.dt);
         let balls = &mut *substep.balls;
-        self.paths.end(balls, substep.team);
-        if let (Motion::Kicked, Field::Sum(field)) = (self.paths.motion, substep.field) {
-            let (time, half) = (substep.time + substep.dt, 0.5 * substep.dt);
-            for index in 0..balls.len() {
-                let first = self.paths.kicks[index];
-                let kept = self.paths.acceleration[index];
-                // As in velocity Verlet: a force of velocity sees the velocity that the first kick predicts.
+        let whole = (&mut balls.velocity[..], 0..balls.position.len());
+        let (positions, masses) = (&balls.position[..], &balls.mass[..]);
+        substep.team.each(whole, GRAIN, &|(velocities, indices)| {
+            for (velocity, index) in velocities.iter_mut().zip(indices) {
+                // A force of velocity sees the one that its own start predicts.
                 let body = Body {
                     index,
-                    mass: balls.mass[index],
-                    position: balls.position[index],
-                    velocity: balls.velocity[index] + kept * half,
+                    mass: masses[index],
+                    position: positions[index],
+                    velocity: *velocity,
                 };
-                // What a resting contact has taken from the first kick, it takes from the second.
-                let taken = first - kept;
-                balls.velocity[index] += (field.at(time, &body) - taken) * half;
+                *velocity += (field.at(time, &body) - self.paths.pulls[index]) * half;
             }
-            for &(index, velocity) in &self.paths.deferred {
-                balls.velocity[index] += velocity;
-            }
-        }
+        });
     }
 }
 

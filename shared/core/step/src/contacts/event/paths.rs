@@ -18,8 +18,18 @@ pub(super) enum Motion {
     Straight,
     /// A constant acceleration per ball: a parabola.
     Curved,
-    /// Straight between two kicks.
-    Kicked,
+}
+
+/// What pulls the balls in a substep.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Pull {
+    None,
+    /// The same for all balls.
+    Common(Vec2),
+    /// One for each ball, the same all the time.
+    Constant,
+    /// One for each ball, which changes on its way.
+    Varying,
 }
 
 #[derive(Default)]
@@ -30,12 +40,14 @@ pub(super) struct Paths {
     pub(super) since: Vec<f64>,
     /// How often each ball was hit in this substep.
     pub(super) hits: Vec<u32>,
-    /// Along the path if curved, in the kicks if kicked; less what resting contacts have taken. Unused if straight.
+    /// Along the path, less what resting contacts have taken. Unused if straight.
     pub(super) acceleration: Vec<Vec2>,
     /// What all balls have, until contacts may change it: then no array is filled, nor read.
     common: Option<Vec2>,
-    /// The same as it was at the start. Unused if straight.
-    pub(super) kicks: Vec<Vec2>,
+    /// What pulls each ball at the start. Unused if straight.
+    pub(super) pulls: Vec<Vec2>,
+    /// That changes on the way.
+    pub(super) varies: bool,
     /// Balls that have another so near at the start that both could meet at the speed which one substep's
     /// acceleration gives. Empty without forces and at restitution 1, where the answer would change nothing.
     touched: Vec<bool>,
@@ -44,8 +56,6 @@ pub(super) struct Paths {
     pub(super) supports: Supports,
     /// Balls whose accelerations a strike may change; scratch.
     pub(super) loose: Vec<usize>,
-    /// Velocities that balls get back at the end of the substep: see [`super::contact`].
-    pub(super) deferred: Vec<(usize, Vec2)>,
     /// A disc around all that is left of each ball's path.
     pub(super) center: Vec<Vec2>,
     pub(super) reach: Vec<f64>,
@@ -58,21 +68,27 @@ impl Paths {
         &mut self,
         balls: &Balls,
         (length, elastic): (f64, bool),
-        motion: Motion,
+        pull: Pull,
         team: &Team,
-        common: Option<Vec2>,
         acceleration: impl Fn(Body) -> Vec2 + Sync,
     ) {
         let count = balls.len();
-        self.motion = motion;
+        self.motion = if pull == Pull::None {
+            Motion::Straight
+        } else {
+            Motion::Curved
+        };
+        self.varies = pull == Pull::Varying;
         self.length = length;
-        self.kicks.clear();
-        self.deferred.clear();
+        self.pulls.clear();
         self.supports.clear();
         self.touched.clear();
         self.margin = 0.0;
-        self.common = common.filter(|_| elastic && motion == Motion::Curved);
-        if motion == Motion::Straight || self.common.is_some() {
+        self.common = match pull {
+            Pull::Common(common) if elastic => Some(common),
+            _ => None,
+        };
+        if pull == Pull::None || self.common.is_some() {
             return;
         }
         self.acceleration.resize(count, Vec2::ZERO);
@@ -87,8 +103,10 @@ impl Paths {
                 });
             }
         });
+        if self.varies || !elastic {
+            self.pulls.extend_from_slice(&self.acceleration);
+        }
         if !elastic {
-            self.kicks.extend_from_slice(&self.acceleration);
             self.margin = (0..count).fold(0.0, |most: f64, index| most.max(self.gain(index))) * length;
             self.touched.resize(count, false);
         }
@@ -100,9 +118,9 @@ impl Paths {
             self.acceleration.clear();
             self.acceleration.resize(balls.len(), common);
         }
-        self.kicks.clear();
+        self.pulls.clear();
         if self.motion != Motion::Straight {
-            self.kicks.extend_from_slice(&self.acceleration);
+            self.pulls.extend_from_slice(&self.acceleration);
         }
         self.since.clear();
         self.since.resize(balls.len(), 0.0);
@@ -116,7 +134,7 @@ impl Paths {
         if self.motion == Motion::Straight {
             0.0
         } else {
-            self.kicks[index].length() * self.length
+            self.pulls[index].length() * self.length
         }
     }
 
@@ -147,7 +165,7 @@ impl Paths {
     pub(super) fn curvature(&self, index: usize) -> Vec2 {
         match self.motion {
             Motion::Curved => self.common.unwrap_or_else(|| self.acceleration[index]),
-            Motion::Straight | Motion::Kicked => Vec2::ZERO,
+            Motion::Straight => Vec2::ZERO,
         }
     }
 
@@ -175,15 +193,6 @@ impl Paths {
             velocity,
             curvature: self.curvature(index),
         }
-    }
-
-    /// How much faster a ball moves than along its path: between kicks, the path has the velocity of the middle.
-    #[inline]
-    pub(super) fn ahead(&self, index: usize, time: f64) -> Vec2 {
-        if self.motion == Motion::Kicked {
-            return self.acceleration[index] * (time - 0.5 * self.length);
-        }
-        Vec2::ZERO
     }
 
     /// Moves all balls to the end of the substep.

@@ -1,7 +1,7 @@
 //! Collision times. A pair whose accelerations are equal, and every wall, is a quadratic root.
 
 use super::paths::Paths;
-use super::piece::{Piece, mass, radius};
+use super::piece::{Piece, mass, radius, widen};
 use crate::contacts::root::first_fall;
 use crate::walls::Wall;
 use crate::{Balls, Vec2};
@@ -61,6 +61,9 @@ fn bent(between: Vec2, relative: Vec2, bend: Vec2, reach: f64, left: f64) -> Opt
     let second = relative.square() + between.dot(bend);
     let (third, fourth) = (relative.dot(bend), 0.25 * bend.square());
     if gap > 0.0 {
+        if passes(between, relative, bend, reach, left) {
+            return None;
+        }
         return first_fall(&[gap, slope, second, third, fourth], left);
     }
     if slope < 0.0 || (slope == 0.0 && second < 0.0) {
@@ -68,6 +71,16 @@ fn bent(between: Vec2, relative: Vec2, bend: Vec2, reach: f64, left: f64) -> Opt
     }
     // The root at 0 is divided out: what is left falls when the pair is back.
     first_fall(&[slope, second, third, fourth, 0.0], left)
+}
+
+/// Whether a pair that is apart surely stays so: as if it moved along the chord of its path, with the room by which
+/// a parabola leaves its chord.
+fn passes(between: Vec2, relative: Vec2, bend: Vec2, reach: f64, left: f64) -> bool {
+    let chord = relative * left + bend * (0.5 * left * left);
+    let part = (-between.dot(chord) / chord.square()).clamp(0.0, 1.0);
+    let room = widen(reach, bend.length() * (left * left * 0.125));
+    // Where the chord is a point, NaN: then it is not sure.
+    (between + chord * part).square() > room * room
 }
 
 /// When a ball on this piece of path hits a wall next, if it does before the substep ends.

@@ -28,7 +28,7 @@ impl Sequence {
         predicted: impl Iterator<Item = &'a mut List>,
     ) -> Result<(), Error> {
         let walls = Walls::of(substep.rules);
-        let law = Law::new(paths.motion, substep.rules.restitution(), substep.dt);
+        let law = Law::new(paths, substep.rules.restitution());
         paths.follow_hits(substep.balls);
         self.queue.begin(predicted.map(|list| &mut list.events));
         let mut count = 0;

@@ -41,13 +41,8 @@ impl Paths {
         let before: Vec<_> = loose
             .iter()
             .map(|&index| {
-                let (place, path) = self.piece(balls, index).at(self.motion, time);
-                (
-                    index,
-                    place,
-                    path + self.ahead(index, time),
-                    self.acceleration[index],
-                )
+                let (place, velocity) = self.piece(balls, index).at(self.motion, time);
+                (index, place, velocity, self.acceleration[index])
             })
             .collect();
         match support {
@@ -63,7 +58,7 @@ impl Paths {
                 .chain(loose.iter().copied())
         };
         for index in all() {
-            self.acceleration[index] = self.kicks[index];
+            self.acceleration[index] = self.pulls[index];
         }
         self.supports.solve(balls, &mut self.acceleration);
         for index in all() {
@@ -84,7 +79,7 @@ impl Paths {
     /// Begins a new piece of path.
     fn turn(&mut self, balls: &mut Balls, index: usize, time: f64, place: Vec2, velocity: Vec2) {
         balls.position[index] = place;
-        balls.velocity[index] = velocity - self.ahead(index, time);
+        balls.velocity[index] = velocity;
         self.since[index] = time;
         self.hits[index] = self.hits[index].wrapping_add(1);
     }

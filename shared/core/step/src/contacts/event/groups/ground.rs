@@ -49,13 +49,13 @@ impl Ground<'_> {
             piece.curvature.length() * self.paths.length
         };
         Body {
-            // As between kicks, where a ball may be ahead of its path: -0.0 becomes 0.0.
-            velocity: velocity + Vec2::ZERO,
+            velocity,
             acceleration: piece.curvature,
             gain,
             radius: radius(self.balls, ball),
             mass: mass(self.balls, ball),
             again: self.law.is_again(hits, piece.since, time),
+            crowded: Law::is_crowded(hits),
         }
     }
 }

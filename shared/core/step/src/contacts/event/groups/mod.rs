@@ -84,13 +84,12 @@ impl Grouped {
     }
 
     /// Runs all groups, to the end of the substep. False if the order of all times has to do it, for which nothing has
-    /// changed: contacts at rest, and forces between kicks, make everything hang together. Where it is true, all balls
+    /// changed: contacts at rest make everything hang together. Where it is true, all balls
     /// have finite places and velocities.
     pub(super) fn run(&mut self, paths: &Paths, substep: &mut Substep<'_>, walls: &[List]) -> bool {
         let suits = match paths.motion {
             Motion::Straight => true,
             Motion::Curved => substep.rules.restitution() == 1.0,
-            Motion::Kicked => false,
         };
         let count = substep.balls.len();
         if !suits || !paths.is_moderate || self.crowded || count >= LEFT as usize {
@@ -130,7 +129,7 @@ impl Grouped {
             paths,
             balls,
             walls: Walls::of(substep.rules),
-            law: Law::new(paths.motion, substep.rules.restitution(), substep.dt),
+            law: Law::new(paths, substep.rules.restitution()),
             strips: &self.strips,
             whereabouts: &self.whereabouts,
             budget: substep.budget,
