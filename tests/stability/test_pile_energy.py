@@ -1,9 +1,9 @@
 """A pile under drag or a spring gained energy in `event`, up to 15 kJ in one tick.
 
 Forces that vary were kicks before and after the straight paths of a tick. A contact of balls that parted, while their
-paths still led into each other, parked the velocities of both until the tick ended. Balls that are pressed together meet
-hundreds of times per tick, and what was parked added up: at restitution 1, too. Now such a tick moves balls along the
-parabolas of what pulls them at its start; nothing is parked.
+paths still led into each other, parked the velocities of both until the tick ended. Balls that are pressed together
+meet hundreds of times per tick, and what was parked added up: at restitution 1, too. Now such a tick moves balls along
+the parabolas of what pulls them at its start; nothing is parked.
 """
 
 from __future__ import annotations
