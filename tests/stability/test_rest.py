@@ -21,7 +21,7 @@ BESIDES = {
     "a weak spring from above": [kg.Spring(0.0, 9.0, 0.1)],
     "drag": [kg.Drag(0.3)],
 }
-"""Forces next to gravity; all but the first are kicks. In none of them does a ball at rest rise."""
+"""Forces next to gravity; all but the first vary. In none of them does a ball at rest rise."""
 
 
 def assert_at_rest(world: kg.World, ticks: int = TICKS) -> None:
