@@ -101,6 +101,6 @@ pub static TABLE: [Kind; 3] = [
         name: "event",
         make: || Box::new(event::EventDriven::default()),
         integrators: Some(&["verlet"]),
-        reason: "its path between collisions is the parabola, or the kick - drift - kick, of velocity Verlet",
+        reason: "its path between collisions is the parabola of velocity Verlet",
     },
 ];
