@@ -1,7 +1,7 @@
 //! Contacts of balls on the paths of a sequence: the law, and what it does to the paths.
 
 use super::contact::{Body, Fate, Law};
-use super::paths::{Motion, Paths};
+use super::paths::Paths;
 use super::piece::{mass, radius};
 use super::rest::Support;
 use crate::contacts::exchange::normal;
@@ -13,11 +13,7 @@ impl Law {
     fn body(&self, paths: &Paths, balls: &Balls, index: usize, velocity: Vec2, time: f64) -> Body {
         Body {
             velocity,
-            acceleration: if self.motion == Motion::Straight {
-                Vec2::ZERO
-            } else {
-                paths.acceleration[index]
-            },
+            acceleration: paths.curvature(index),
             gain: paths.gain(index),
             radius: radius(balls, index),
             mass: mass(balls, index),

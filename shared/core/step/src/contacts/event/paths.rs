@@ -103,9 +103,7 @@ impl Paths {
                 });
             }
         });
-        if self.varies || !elastic {
-            self.pulls.extend_from_slice(&self.acceleration);
-        }
+        self.pulls.extend_from_slice(&self.acceleration);
         if !elastic {
             self.margin = (0..count).fold(0.0, |most: f64, index| most.max(self.gain(index))) * length;
             self.touched.resize(count, false);
@@ -117,9 +115,6 @@ impl Paths {
         if let Some(common) = self.common.take() {
             self.acceleration.clear();
             self.acceleration.resize(balls.len(), common);
-        }
-        self.pulls.clear();
-        if self.motion != Motion::Straight {
             self.pulls.extend_from_slice(&self.acceleration);
         }
         self.since.clear();

@@ -82,7 +82,7 @@ impl Paths {
         centers: &mut [Vec2],
         reaches: &mut [f64],
     ) -> bool {
-        let (half, margin) = (0.5 * self.length, 0.5 * self.margin);
+        let half = 0.5 * self.length;
         let (positions, velocities) = (&balls.position[indices.clone()], &balls.velocity[indices.clone()]);
         for (center, (&position, &velocity)) in centers.iter_mut().zip(positions.iter().zip(velocities)) {
             *center = position + velocity * half;
@@ -90,13 +90,13 @@ impl Paths {
         match balls.uniform() {
             Some(shape) => {
                 for (reach, velocity) in reaches.iter_mut().zip(velocities) {
-                    *reach = widen(shape.radius, velocity.length() * half + margin);
+                    *reach = widen(shape.radius, velocity.length() * half);
                 }
             }
             None => {
                 let sized = balls.radius[indices].iter().zip(velocities);
                 for (reach, (&radius, velocity)) in reaches.iter_mut().zip(sized) {
-                    *reach = widen(radius, velocity.length() * half + margin);
+                    *reach = widen(radius, velocity.length() * half);
                 }
             }
         }

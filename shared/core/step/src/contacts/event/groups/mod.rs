@@ -84,13 +84,10 @@ impl Grouped {
     }
 
     /// Runs all groups, to the end of the substep. False if the order of all times has to do it, for which nothing has
-    /// changed: contacts at rest make everything hang together. Where it is true, all balls
-    /// have finite places and velocities.
+    /// changed: contacts at rest make everything hang together. Where it is true, all balls have finite places and
+    /// velocities.
     pub(super) fn run(&mut self, paths: &Paths, substep: &mut Substep<'_>, walls: &[List]) -> bool {
-        let suits = match paths.motion {
-            Motion::Straight => true,
-            Motion::Curved => substep.rules.restitution() == 1.0,
-        };
+        let suits = paths.motion == Motion::Straight || substep.rules.restitution() == 1.0;
         let count = substep.balls.len();
         if !suits || !paths.is_moderate || self.crowded || count >= LEFT as usize {
             return false;
