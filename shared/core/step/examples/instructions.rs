@@ -4,17 +4,20 @@
 
 use std::hint::black_box;
 
-use kuglice_step::{Model, NewBall, Rules, Vec2, World, random};
+use kuglice_step::{Input, InputKind, Model, NO_BALL, NewBall, Rules, Vec2, World, random};
 
 /// What a case prepares and then has counted.
 type Case = fn();
 
-const CASES: [(&str, Case); 11] = [
+const CASES: [(&str, Case); 12] = [
     ("overlap", || {
         ticks(world(3000, "overlap", "loose_quadtree", &EQUAL), 10)
     }),
     ("overlap, mixed radii", || {
         ticks(world(3000, "overlap", "loose_quadtree", &MIXED), 10);
+    }),
+    ("backtrack, a player among small balls", || {
+        ticks(played(3000), 10);
     }),
     ("overlap, quadtree", || {
         ticks(world(1000, "overlap", "quadtree", &EQUAL), 10)
@@ -94,6 +97,28 @@ fn arranged() -> World {
     world
 }
 
+/// Balls with weight, and among them one twelve times as wide that a client thrusts.
+fn played(count: u32) -> World {
+    const HEAVY: Gas = Gas {
+        least_radius: 0.5,
+        gravity: true,
+    };
+    let mut world = world(count, "backtrack", "loose_quadtree", &HEAVY);
+    let input = |kind, sequence, numbers| Input {
+        kind,
+        client: 1,
+        sequence,
+        ball: NO_BALL,
+        numbers,
+    };
+    let inputs = [
+        input(InputKind::Join, 1, [20.0, 20.0, 6.0, 144.0, 0.0, 0.0]),
+        input(InputKind::Thrust, 2, [400.0, -300.0, 0.0, 0.0, 0.0, 0.0]),
+    ];
+    world.step(&inputs, None).expect("the inputs are sound");
+    world
+}
+
 /// A gas at packing 0.3, or less where radii are mixed.
 fn world(count: u32, contacts: &str, broadphase: &str, gas: &Gas) -> World {
     let columns = f64::from(count).sqrt().ceil();
@@ -112,7 +137,7 @@ fn world(count: u32, contacts: &str, broadphase: &str, gas: &Gas) -> World {
         })
         .collect();
     let forces: &[(&str, &[f64])] = if gas.gravity {
-        &[("gravity", &[0.0, -10.0])]
+        &[("gravity", &[0.0, -10.0]), ("thrust", &[])]
     } else {
         &[]
     };

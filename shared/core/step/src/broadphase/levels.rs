@@ -11,6 +11,8 @@ const CELLS_PER_DISC: f64 = 6.0;
 const MOST_LEVELS: usize = 16;
 /// Cells that need be no more than so many times as wide to hold all discs are made as wide as that.
 const NEARLY: f64 = 1.5;
+/// Of so many discs one, or fewer, may be too wide for the finest cells without being counted among those that differ.
+const FEW: usize = 16;
 
 /// All levels, the finest first.
 #[derive(Debug, Default)]
@@ -56,7 +58,7 @@ impl Levels {
     /// Lays the levels out for these discs: over the root, or over the discs alone if they fill little of it.
     pub(super) fn lay_out(&mut self, discs: &Discs<'_>, root: [f64; 4]) {
         self.all.clear();
-        let Reaches { finest, most } = Reaches::of(discs);
+        let Reaches { finest, most, wider } = Reaches::of(discs);
         let most_cells = CELLS_PER_DISC * discs.len() as f64 + 16.0;
         let [left, bottom, right, top] = root;
         let mut origin = Vec2::new(left, bottom);
@@ -66,8 +68,9 @@ impl Levels {
         {
             (origin, extent) = bounds(discs);
         }
-        if finest < most {
+        if wider * FEW > discs.len() {
             // Each level is one more place to look: where a cell of the next one would hold a disc or so, start there.
+            // Not for the sake of a few, like players among what they play with: they look, and the others do not.
             wanted = wanted.max((extent.x * extent.y / discs.len() as f64).sqrt());
             let widest = 2.0 * most * MARGIN;
             if wanted * NEARLY >= widest {
@@ -99,6 +102,8 @@ struct Reaches {
     /// The reach that the finest level is made for.
     finest: f64,
     most: f64,
+    /// How many are wider than that level's.
+    wider: usize,
 }
 
 impl Reaches {
@@ -109,10 +114,12 @@ impl Reaches {
             Reach::Same(reach) => Reaches {
                 finest: reach,
                 most: reach,
+                wider: 0,
             },
             Reach::Each([]) => Reaches {
                 finest: 1.0,
                 most: 1.0,
+                wider: 0,
             },
             Reach::Each(all) => {
                 let (mut least, mut most, mut sum) = ([f64::INFINITY; LANES], [0.0; LANES], [0.0; LANES]);
@@ -141,9 +148,11 @@ impl Reaches {
                     .chain(rest)
                     .fold(0.0, |most: f64, &reach| reach.max(most));
                 let mean = sum.iter().chain(rest).sum::<f64>() / all.len() as f64;
+                let finest = (1.25 * mean).min(2.0 * least).min(most);
                 Reaches {
-                    finest: (1.25 * mean).min(2.0 * least).min(most),
+                    finest,
                     most,
+                    wider: all.iter().filter(|&&reach| reach > finest).count(),
                 }
             }
         }

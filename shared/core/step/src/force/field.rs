@@ -43,6 +43,7 @@ pub struct Sum {
     forces: Vec<Arc<dyn Force>>,
     held: HeldNow,
     constant: bool,
+    elsewhere: Option<Constant>,
 }
 
 impl Sum {
@@ -50,6 +51,13 @@ impl Sum {
     #[must_use]
     pub fn is_constant(&self) -> bool {
         self.constant
+    }
+
+    /// Balls that players thrust, by index, and the sum for all others, if that is the same for them all: to the bit,
+    /// as what starts at 0 and has 0 added to it stays what it is.
+    pub(crate) fn constant_but_for(&self) -> Option<(impl Iterator<Item = usize> + use<'_>, &Constant)> {
+        let thrust = self.held.thrust.iter().map(|&(index, _)| index);
+        self.elsewhere.as_ref().map(|elsewhere| (thrust, elsewhere))
     }
 }
 
@@ -86,15 +94,21 @@ impl Field {
         if acting.is_empty() {
             return Field::None(NoForce);
         }
-        let constant = acting.iter().try_fold(Vec2::ZERO, |sum, force| {
-            force.constant().map(|acceleration| sum + acceleration)
-        });
+        let sum = |of: fn(&dyn Force) -> Option<Vec2>| {
+            acting
+                .iter()
+                .try_fold(Vec2::ZERO, |sum, force| of(&**force).map(|one| sum + one))
+        };
+        let constant = sum(|force| force.constant());
         match constant {
             Some(acceleration) if !balls.any_fixed() => Field::Constant(Constant(acceleration)),
             _ => Field::Sum(Sum {
+                constant: constant.is_some(),
+                elsewhere: sum(|force| force.constant_elsewhere())
+                    .filter(|_| !balls.any_fixed())
+                    .map(Constant),
                 forces: acting,
                 held,
-                constant: constant.is_some(),
             }),
         }
     }

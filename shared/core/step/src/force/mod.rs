@@ -70,6 +70,11 @@ pub trait Force: Debug + Send + Sync {
         None
     }
 
+    /// The same for every ball but those of `HeldNow::thrust`; None if it is not.
+    fn constant_elsewhere(&self) -> Option<Vec2> {
+        self.constant()
+    }
+
     /// Whether it can act at all while these inputs are held.
     fn acts(&self, _held: &HeldNow) -> bool {
         true

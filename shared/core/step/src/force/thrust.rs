@@ -25,6 +25,10 @@ impl Force for Thrust {
         }
     }
 
+    fn constant_elsewhere(&self) -> Option<Vec2> {
+        Some(Vec2::ZERO)
+    }
+
     fn acts(&self, held: &HeldNow) -> bool {
         !held.thrust.is_empty()
     }

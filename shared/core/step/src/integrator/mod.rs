@@ -5,7 +5,7 @@ mod rk4;
 mod symplectic_euler;
 mod verlet;
 
-use crate::force::{Acceleration, Body, Field};
+use crate::force::{Acceleration, Body, Constant, Field, Sum};
 use crate::team::{GRAIN, Team};
 use crate::{Balls, Vec2};
 
@@ -25,6 +25,33 @@ pub struct Bodies<'a> {
     pub velocity: &'a mut [Vec2],
     /// Masses.
     pub mass: &'a [f64],
+}
+
+impl<'a> Bodies<'a> {
+    /// Those before `index`, which is among these or just behind them, and the rest.
+    fn split_at(self, index: usize) -> (Bodies<'a>, Bodies<'a>) {
+        let middle = index - self.start;
+        let (position, position_rest) = self.position.split_at_mut(middle);
+        let (velocity, velocity_rest) = self.velocity.split_at_mut(middle);
+        let (mass, mass_rest) = self.mass.split_at(middle);
+        let first = Bodies {
+            start: self.start,
+            position,
+            velocity,
+            mass,
+        };
+        let rest = Bodies {
+            start: index,
+            position: position_rest,
+            velocity: velocity_rest,
+            mass: mass_rest,
+        };
+        (first, rest)
+    }
+
+    fn end(&self) -> usize {
+        self.start + self.position.len()
+    }
 }
 
 /// Moves balls from `time` by `dt` seconds.
@@ -84,8 +111,35 @@ fn advance<S: Scheme>(bodies: Bodies<'_>, field: &Field, time: f64, dt: f64) {
     match field {
         Field::None(none) => each::<S, _>(bodies, none, time, dt),
         Field::Constant(constant) => each::<S, _>(bodies, constant, time, dt),
-        Field::Sum(sum) => each::<S, _>(bodies, sum, time, dt),
+        Field::Sum(sum) => match sum.constant_but_for() {
+            Some((thrust, elsewhere)) => all_but::<S>(thrust, bodies, (sum, elsewhere), time, dt),
+            None => each::<S, _>(bodies, sum, time, dt),
+        },
     }
+}
+
+/// The balls of `few`, by index, feel the sum, all others what is the same for them.
+fn all_but<S: Scheme>(
+    few: impl Iterator<Item = usize>,
+    mut bodies: Bodies<'_>,
+    (sum, elsewhere): (&Sum, &Constant),
+    time: f64,
+    dt: f64,
+) {
+    for index in few {
+        if index < bodies.start {
+            continue;
+        }
+        if index >= bodies.end() {
+            break;
+        }
+        let (before, rest) = bodies.split_at(index);
+        let (one, rest) = rest.split_at(index + 1);
+        each::<S, _>(before, elsewhere, time, dt);
+        each::<S, _>(one, sum, time, dt);
+        bodies = rest;
+    }
+    each::<S, _>(bodies, elsewhere, time, dt);
 }
 
 fn each<S: Scheme, A: Acceleration>(bodies: Bodies<'_>, acceleration: &A, time: f64, dt: f64) {
@@ -107,3 +161,6 @@ fn each<S: Scheme, A: Acceleration>(bodies: Bodies<'_>, acceleration: &A, time: 
         (*position, *velocity) = S::advance(acceleration, time, dt, body);
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -66,3 +66,31 @@ proptest! {
         prop_assert!(levels.cells() < 400 * (center.len() + 10), "{} cells for {} discs", levels.cells(), center.len());
     }
 }
+
+/// A player of twelve times their radius once made the cells of 10,000 balls so wide that a tick took twice as long.
+#[test]
+fn cells_are_as_fine_with_a_few_wide_discs_as_without() {
+    let center: Vec<_> = (0..400)
+        .map(|i| Vec2::new(f64::from(i % 20), f64::from(i / 20)))
+        .collect();
+    let mut reach = vec![0.1; center.len()];
+    let finest = |reach: &[f64]| {
+        let mut levels = Levels::default();
+        let reach = Reach::Each(reach);
+        levels.lay_out(
+            &Discs {
+                center: &center,
+                reach,
+            },
+            [0.0, 0.0, 20.0, 20.0],
+        );
+        levels.finest().size()
+    };
+    let equal = finest(&reach);
+    reach[7] = 1.2;
+    reach[300] = 0.9;
+    assert_eq!(finest(&reach), equal);
+    // Half of them are another matter: every level that is occupied is one more place to look.
+    reach[..200].fill(1.2);
+    assert!(finest(&reach) > 2.0 * equal);
+}
