@@ -43,6 +43,10 @@ RETRY_MS = 200
 RECEIVING_THREADS = 16
 """A session that ends keeps one of the threads that receive for a round trip. By default there are two of them, and
 with both taken nobody's datagrams are read."""
+ACCEPTING_THREADS = 64
+"""A socket that is closed before what was said into it has been acknowledged keeps one of the threads that accept for ten
+seconds: of a client whose link is cut while it connects, or of a stranger who greets and vanishes. By default there is one.
+"""
 MAX_MESSAGE_BYTES = MAX_WHOLE_BYTES + (64 << 10)
 """Of one that comes in, key and envelope included. Zenoh by itself puts together up to 1 GiB, and a ring keeps that
 many times over. No state needs more, be there ever so many balls: whatever grows with them comes in parts of a batch
@@ -137,7 +141,9 @@ def _configuration(
 
 def open_session(configuration: dict[str, Any]) -> zenoh.Session:
     """Open a session; raises ProtocolError, naming the endpoints, if that fails."""
-    os.environ.setdefault(RUNTIME, f"(rx: (worker_threads: {RECEIVING_THREADS}))")
+    os.environ.setdefault(
+        RUNTIME, f"(rx: (worker_threads: {RECEIVING_THREADS}), acc: (worker_threads: {ACCEPTING_THREADS}))"
+    )
     try:
         return zenoh.open(zenoh.Config.from_json5(json.dumps(configuration)))
     except zenoh.ZError as error:
