@@ -159,8 +159,7 @@ class Answers:
             raise ProtocolError(
                 "snapshot: none yet" if at is None else f"snapshot at or before {at}: not kept"
             )
-        data = compress(kept.data, numbers=True)
-        yield from split(data, of="snapshot", epoch=self._epoch, tick=kept.tick)
+        yield from split(self._snapshots.packed(kept), of="snapshot", epoch=self._epoch, tick=kept.tick)
 
 
 def _at_once(answer: Callable[[], None]) -> None:

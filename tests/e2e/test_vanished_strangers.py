@@ -92,7 +92,16 @@ def test_strangers_who_greet_and_vanish_keep_nobody_from_joining(start, scene, t
             )
             # Beside the server, where no link is cut.
             client = start(
-                *("client", "--connect", f"tcp/{link.server_address}", "--name", "ana", "--wait", 30, "--json"),
+                *(
+                    "client",
+                    "--connect",
+                    f"tcp/{link.server_address}",
+                    "--name",
+                    "ana",
+                    "--wait",
+                    30,
+                    "--json",
+                ),
                 *("--seconds", 1),
                 prefix=link.server_prefix,
             )

@@ -1,8 +1,8 @@
 """Large answers in fewer bytes, exactly: zlib, which every Python brings along.
 
 Numbers of a state are f64, whose bytes look like noise one after the other. Sorted by their place in the number, those
-of sign and exponent are alike, and the answer shrinks by a quarter. It takes 1.5 ms per 1,000 balls, once for each who
-asks, on a thread beside the tick loop: worth it there, and not for what is published.
+of sign and exponent are alike, and the answer shrinks by a quarter. It takes 1.5 ms per 1,000 balls, once for all who
+ask together, on a thread beside the tick loop: worth it there, and not for what is published.
 """
 
 from __future__ import annotations
