@@ -69,6 +69,14 @@ class Follower:
         return self.world.tick, min(self._buffer)
 
     @property
+    def holes_end(self) -> int:
+        """Behind the last tick that is missing before one that is here; the first of them begins the `gap`."""
+        end = max(self._buffer, default=self.world.tick)
+        while end - 1 in self._buffer:
+            end -= 1
+        return max(end, self.world.tick)
+
+    @property
     def behind(self) -> int:
         """Ticks that the stream has told and the world has not done."""
         return max(0, self._newest + 1 - self.world.tick)

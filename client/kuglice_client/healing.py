@@ -1,4 +1,9 @@
-"""What the stream did not bring, or what went wrong, is asked for: one question at a time, no waiting."""
+"""What the stream did not bring, or what went wrong, is asked for: one question at a time, no waiting.
+
+Where much is missing there is a second one, for a state, beside that for the ticks: these come first and are stepped
+through meanwhile, and the state is taken if it is still ahead when it comes. Nobody knows beforehand which of the two
+is quicker: it depends on what else this machine does, and on what is lost on the way.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +34,8 @@ TICKS_IN_SILENCE = 600
 class Healing:
     """Fills gaps from the server's history, and takes a snapshot where that does not reach or bits differ.
 
-    A snapshot too where it comes sooner than what is missing is stepped through: one takes `state_seconds` to come.
+    A snapshot beside the ticks where it may come sooner than they are stepped through: one takes `state_seconds` to
+    come.
     """
 
     def __init__(
@@ -54,7 +60,10 @@ class Healing:
         self._snapshot_needed = False
         self._not_before = 0.0
         self._asked_in_silence = False
-        self._leaping = False
+        self._asked_into_the_void = False
+        """In silence, and not over a link that is new."""
+        self._overtaking: Asked | None = None
+        """The state that may come before the ticks that are missing are stepped through."""
         self.brought: History | None = None
         """What the last turn got from the history."""
         self.gaps_skipped = 0
@@ -69,38 +78,75 @@ class Healing:
         self.brought = None
         renewed, self._session = self._link.session is not self._session, self._link.session
         self._link_is_new = silent and (renewed or self._link_is_new)
-        if self._asked is not None and (renewed or (self._asked_in_silence and not silent)):
+        if renewed:
+            self._overtaking = None
+        if self._asked is not None and (renewed or (self._asked_into_the_void and not silent)):
             # The link is back: what was asked into the void is not waited for.
             self._asked, self._not_before = None, now
+        replaced = self._hear_overtaking()
         if self._asked is not None:
-            return self._hear(now)
+            return self._hear(now) or replaced
         if now >= self._not_before:
             far = missing * step_seconds > max(LEAP_SECONDS, self._state_seconds)
             self._ask(silent=silent, far=far)
-        return False
+        return replaced
 
     def _ask(self, *, silent: bool, far: bool) -> None:
         gap = self._follower.gap
-        self._asked_in_silence = False
-        self._leaping = far and (gap is not None or self._link_is_new)
-        if self._snapshot_needed or self._leaping:
-            request: SnapshotRequest | TickRange = SnapshotRequest(epoch=self._epoch, at=None)
-        elif self._reconciler.wrong_since is not None:
+        self._asked_in_silence = self._asked_into_the_void = False
+        leaping = far and self._overtaking is None and (gap is not None or self._link_is_new)
+        if self._snapshot_needed:
+            if self._overtaking is None:
+                self._asked = self._ask_state(at=None)
+        elif self._reconciler.wrong_since is not None and not leaping:
             # From before it went wrong: run on from there, it shows what differed first.
-            request = SnapshotRequest(epoch=self._epoch, at=self._reconciler.wrong_since)
+            self._asked = self._ask_state(at=self._reconciler.wrong_since)
         elif gap is not None:
-            request = TickRange(epoch=self._epoch, first=gap[0], end=gap[1])
+            first, end = gap
+            # All holes at once: on a long way every question costs a round trip.
+            end = max(end, min(self._follower.holes_end, first + TICKS_IN_SILENCE))
+            self._asked = self._ask_ticks(first, end, timeout=TIMEOUT_SECONDS)
         elif silent:
-            self._asked_in_silence = True
+            self._asked_in_silence, self._asked_into_the_void = True, not self._link_is_new
             self.silences += 1
             first = self._follower.world.tick
-            request = TickRange(epoch=self._epoch, first=first, end=first + TICKS_IN_SILENCE)
-        else:
-            return
-        timeout = SILENT_TIMEOUT_SECONDS if self._asked_in_silence else TIMEOUT_SECONDS
-        if isinstance(request, SnapshotRequest):
-            timeout = max(timeout, PATIENT_TRIPS * self._state_seconds)
-        self._asked = self._link.ask(self._keys.history, request, timeout=timeout)
+            self._asked = self._ask_ticks(first, first + TICKS_IN_SILENCE, timeout=SILENT_TIMEOUT_SECONDS)
+        if leaping and not self._snapshot_needed:
+            # After the ticks: over one stream they would wait behind it.
+            self._overtaking = self._ask_state(at=None)
+        self._link_is_new = False
+
+    def _ask_ticks(self, first: int, end: int, *, timeout: float) -> Asked:
+        return self._link.ask(
+            self._keys.history, TickRange(epoch=self._epoch, first=first, end=end), timeout=timeout
+        )
+
+    def _ask_state(self, *, at: int | None) -> Asked:
+        return self._link.ask(
+            self._keys.history,
+            SnapshotRequest(epoch=self._epoch, at=at),
+            timeout=max(TIMEOUT_SECONDS, PATIENT_TRIPS * self._state_seconds),
+        )
+
+    def _hear_overtaking(self) -> bool:
+        """Take the state that was asked for beside the ticks, if it is still ahead of them. Whether it was taken."""
+        if self._overtaking is None:
+            return False
+        try:
+            whole = self._overtaking.poll_whole()
+        except (JoinError, ProtocolError) as error:
+            log.debug("%s", error)
+            self._overtaking = None
+            return False
+        if whole is None:
+            return False
+        self._overtaking = None
+        if whole.tick <= self._follower.world.tick:
+            return False
+        self._snapshot_needed = False
+        self.gaps_skipped += 1
+        self._reconciler.stranded(whole)
+        return True
 
     def _hear(self, now: float) -> bool:
         asked = self._asked
@@ -131,7 +177,7 @@ class Healing:
         return False
 
     def _take(self, whole: Whole) -> bool:
-        if (self._leaping or self._follower.gap is not None) and whole.tick > self._follower.world.tick:
+        if self._follower.gap is not None and whole.tick > self._follower.world.tick:
             self.gaps_skipped += 1
             self._reconciler.stranded(whole)
             return True

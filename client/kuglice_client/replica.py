@@ -254,7 +254,7 @@ class Replica:
         until = time.monotonic() + PREDICT_SECONDS
 
         def in_time() -> bool:
-            return time.monotonic() < until
+            return step and time.monotonic() < until
 
         reached = prediction.world.tick
         if prediction.reconcile(confirmed, in_time) and self._study is not None:

@@ -7,7 +7,7 @@ import pytest
 from client.conftest import EPOCH
 from kuglice.protocol import Keys, SnapshotRequest, TickRange, Whole, encode
 from kuglice_client.follow import Follower
-from kuglice_client.healing import LEAP_SECONDS, Healing
+from kuglice_client.healing import LEAP_SECONDS, TICKS_IN_SILENCE, Healing
 from kuglice_client.reconcile import Reconciler
 
 STATE_SECONDS = 2.0
@@ -70,8 +70,9 @@ class Patient:
         list(self.follower.advance())
         return replaced
 
-    def answer(self) -> None:
-        question = self.link.asked[-1]
+    def answer(self, kind: type = TickRange) -> None:
+        """The newest question of that kind."""
+        question = next(one for one in reversed(self.link.asked) if type(one.request) is kind)
         if isinstance(question.request, TickRange):
             told = self.authority.history(question.request.first, question.request.end)
             question.answer = Whole("history", EPOCH, told.first, encode(told))
@@ -108,12 +109,90 @@ def test_a_state_that_comes_sooner_than_they_are_stepped_through_is_taken(patien
     patient.miss(round(STATE_SECONDS / DEAR) + 1)
     patient.hear()
     patient.turn(step_seconds=DEAR)
-    patient.answer()
+    patient.answer(SnapshotRequest)
     patient.hear()
     assert patient.turn(step_seconds=DEAR)
-    assert patient.requests == [SnapshotRequest]
+    assert patient.requests == [TickRange, SnapshotRequest], "in one turn, and the ticks first"
     assert patient.healing.gaps_skipped == 1
     assert patient.well, "with what the stream told meanwhile"
+    patient.answer(TickRange)
+    assert not patient.turn(step_seconds=DEAR)
+    assert patient.well, "whatever comes later"
+
+
+def test_ticks_that_are_stepped_through_before_the_state_comes_replace_it(patient):
+    patient.miss(round(STATE_SECONDS / DEAR) + 1)
+    patient.hear()
+    patient.turn(step_seconds=DEAR)
+    patient.answer(SnapshotRequest)
+    late, patient.link.asked[-1].answer = patient.link.asked[-1].answer, None
+    patient.answer(TickRange)
+    assert not patient.turn(step_seconds=DEAR)
+    assert patient.well
+    patient.link.asked[-1].answer = late
+    patient.hear()
+    assert not patient.turn(step_seconds=DEAR)
+    assert patient.healing.gaps_skipped == 0
+    assert patient.requests == [TickRange, SnapshotRequest]
+    assert patient.well
+
+
+def test_a_state_under_way_is_waited_for_where_the_history_does_not_reach_back(patient):
+    patient.miss(round(STATE_SECONDS / DEAR) + 1)
+    patient.hear()
+    patient.turn(step_seconds=DEAR)
+    del patient.authority.ticks[: patient.follower.world.tick + 3]
+    patient.answer(TickRange)
+    for _ in range(3):
+        assert not patient.turn(step_seconds=DEAR)
+    patient.answer(SnapshotRequest)
+    assert patient.turn(step_seconds=DEAR)
+    assert patient.requests == [TickRange, SnapshotRequest], "and no other one is asked for meanwhile"
+    assert patient.well
+
+
+def test_all_holes_of_the_stream_are_asked_for_at_once(patient):
+    for missed in (3, 1, 5):
+        patient.miss(missed)
+        patient.hear()
+        patient.hear()
+    patient.turn(step_seconds=CHEAP)
+    patient.answer()
+    patient.turn(step_seconds=CHEAP)
+    patient.turn(step_seconds=CHEAP)
+    assert patient.requests == [TickRange]
+    first, end = patient.link.asked[0].request.first, patient.link.asked[0].request.end
+    assert end - first == 3 + 2 + 1 + 2 + 5, "and not what came behind the last"
+    assert patient.well
+
+
+def test_holes_far_from_each_other_are_asked_for_one_after_the_other(patient):
+    patient.miss(1)
+    for _ in range(TICKS_IN_SILENCE):
+        patient.hear()
+    patient.miss(1)
+    patient.hear()
+    patient.turn(step_seconds=CHEAP)
+    patient.answer()
+    patient.turn(step_seconds=CHEAP)
+    patient.turn(step_seconds=CHEAP)
+    patient.answer()
+    patient.turn(step_seconds=CHEAP)
+    assert patient.requests == [TickRange, TickRange]
+    assert patient.well
+
+
+def test_what_was_asked_over_a_new_link_is_waited_for_when_the_stream_is_heard_again(patient):
+    patient.turn(step_seconds=CHEAP, silent=True)
+    patient.miss(20)
+    patient.link.session = object()
+    patient.turn(step_seconds=CHEAP, silent=True)
+    patient.hear()
+    patient.turn(step_seconds=CHEAP, silent=False)
+    patient.answer()
+    patient.turn(step_seconds=CHEAP, silent=False)
+    assert patient.requests == [TickRange, TickRange], "one into the void, one over the new link"
+    assert patient.well
 
 
 def test_a_question_of_an_old_link_is_asked_again_over_the_new_one(patient):
@@ -136,9 +215,9 @@ def test_over_a_new_link_the_state_is_asked_for_before_the_stream_says_anything(
     assert patient.requests == [TickRange], "into the void nothing large is asked for"
     patient.link.session = object()
     patient.turn(step_seconds=DEAR, silent=True)
-    patient.answer()
+    patient.answer(SnapshotRequest)
     assert patient.turn(step_seconds=DEAR, silent=True)
-    assert patient.requests == [TickRange, SnapshotRequest]
+    assert patient.requests == [TickRange, TickRange, SnapshotRequest], "and the ticks before it"
     assert patient.well
 
 
