@@ -1,9 +1,9 @@
 """Regression: whoever said hello and vanished kept everybody else from joining, for ten seconds each.
 
-A server that has been greeted answers, waits ten seconds for what follows, and closes the socket. Zenoh has close(2) wait
-another ten for the answer to be acknowledged, in the thread that accepts, of which there was one. Three packets of 98
-bytes kept a server shut for half a minute; and so did the tries of clients whose link was cut while they connected, which
-made some of them come back seconds after the others. Now many threads accept.
+A server that has been greeted answers, waits ten seconds for what follows, and closes the socket. Zenoh has close(2)
+wait another ten for the answer to be acknowledged, in the thread that accepts, of which there was one. Three packets of
+98 bytes kept a server shut for half a minute; and so did the tries of clients whose link was cut while they connected,
+which made some of them come back seconds after the others. Now many threads accept.
 """
 
 from __future__ import annotations
@@ -80,8 +80,15 @@ def test_strangers_who_greet_and_vanish_keep_nobody_from_joining(start, scene, t
             return sum(not one[4].startswith("00000000:") for one in sockets())
 
         strangers = subprocess.Popen(
-            [*link.client_prefix, sys.executable, "-c", GREET]
-            + [link.client_address, greeting().hex(), str(STRANGERS)]
+            [
+                *link.client_prefix,
+                sys.executable,
+                "-c",
+                GREET,
+                link.client_address,
+                greeting().hex(),
+                str(STRANGERS),
+            ]
         )
         try:
             until(lambda: unacknowledged() == STRANGERS, what="all strangers are answered")

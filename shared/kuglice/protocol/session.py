@@ -44,8 +44,9 @@ RECEIVING_THREADS = 16
 """A session that ends keeps one of the threads that receive for a round trip. By default there are two of them, and
 with both taken nobody's datagrams are read."""
 ACCEPTING_THREADS = 64
-"""A socket that is closed before what was said into it has been acknowledged keeps one of the threads that accept for ten
-seconds: of a client whose link is cut while it connects, or of a stranger who greets and vanishes. By default there is one.
+"""A socket that is closed before what was said into it has been acknowledged keeps one of the threads that accept for
+ten seconds: of a client whose link is cut while it connects, or of a stranger who greets and vanishes. By default there
+is one.
 """
 MAX_MESSAGE_BYTES = MAX_WHOLE_BYTES + (64 << 10)
 """Of one that comes in, key and envelope included. Zenoh by itself puts together up to 1 GiB, and a ring keeps that
