@@ -117,8 +117,9 @@ class Client(Closing):
             self._end_or_rejoin()
         replica = self.replica
         answered = replica.healing.brought is not None
-        if self.renewal.turn(now, silent=replica.stream.silent(now), answered=answered):
-            replica.clock.relinked(now, in_order="udp" not in self.link.kinds)
+        if self.renewal.turn(now, silent=replica.stream.silent(now), answered=answered, busy=replica.busy):
+            datagrams = "udp" in self.link.kinds or self.link.owes_datagrams
+            replica.clock.relinked(now, in_order=not datagrams)
         self.screen.alpha = replica.advance(now)
         return self.screen.alpha
 

@@ -69,6 +69,11 @@ class Healing:
         self.gaps_skipped = 0
         self.silences = 0
 
+    @property
+    def asking(self) -> bool:
+        """Whether an answer is waited for."""
+        return self._asked is not None or self._overtaking is not None
+
     def turn(self, now: float, *, missing: float, step_seconds: float, silent: bool = False) -> bool:
         """Hear what was answered, ask what is needed. Whether the confirmed world is another now: the server's.
 

@@ -162,6 +162,11 @@ class Replica:
         return given_up or self.credibility.restarted
 
     @property
+    def busy(self) -> bool:
+        """Whether something is asked for, or more is known than can be stepped through in a turn."""
+        return self.healing.asking or self.follower.behind * self._step_seconds > CONFIRM_SECONDS
+
+    @property
     def refused(self) -> str | None:
         """Why this run of the server will not have us any more, None while it will: joining anew is in vain."""
         told = self._told_of_us

@@ -42,7 +42,9 @@ class DatagramWatch:
 
     def turn(self, now: float) -> None:
         """Look, now and then."""
-        if not self._link.wants_datagrams or now < min(self._look_at, self._glance_at):
+        if not self._link.wants_datagrams or self._link.owes_datagrams:
+            return
+        if now < min(self._look_at, self._glance_at):
             return
         kinds = self._link.kinds
         if now < self._look_at:

@@ -24,6 +24,7 @@ from kuglice.protocol import (
     decode,
     encode,
     open_links,
+    stream_alone,
     wants_datagrams,
 )
 from kuglice_client.link.ask import Asked
@@ -55,9 +56,13 @@ class Link:
         self.quickest_answer = math.inf
         """Seconds, of all that was asked over this session: the way there and back takes no longer."""
         self.wants_datagrams = any(map(wants_datagrams, connect))
+        self.owes_datagrams = False
+        """Whether this session was opened for the sake of speed without the datagrams that are wanted."""
         self._configuration = client_configuration(connect, timeout=1.0, reconnect=False)
+        self._quick = client_configuration(tuple(map(stream_alone, connect)), timeout=1.0, reconnect=False)
         self.session = Opening(self._configuration).wait(deadline, stop)
         self._opening: Opening | None = None
+        self._opening_owes = False
         self._declared: list[Declared] = []
         self._goodbye: _Goodbye | None = None
         self._who: tuple[str, str] | None = None
@@ -126,12 +131,16 @@ class Link:
     def begin_renewal(self) -> None:
         """Open another session beside this one, unless that is being done already."""
         if self._opening is None:
-            self._opening = Opening(self._configuration)
+            self._opening, self._opening_owes = Opening(self._configuration), False
 
     def renew_if_lost(self) -> None:
-        """The same, if this session has no link any more."""
-        if not self.kinds:
-            self.begin_renewal()
+        """The same, if this session has no link any more; and at first without datagrams.
+
+        They come up after the stream, a round trip later, and only then would it be of use. And where nobody answers
+        they are waited for as long again, so that half as many tries fit into the time.
+        """
+        if not self.kinds and self._opening is None:
+            self._opening, self._opening_owes = Opening(self._quick), self.wants_datagrams
 
     def renewed(self) -> bool:
         """Whether another session is open by now; then all that is said and asked goes over it, and the old one ends.
@@ -141,7 +150,7 @@ class Link:
         session = None if self._opening is None else self._opening.poll(time.monotonic())
         if session is None:
             return False
-        self._opening = None
+        self._opening, self.owes_datagrams = None, self._opening_owes
         old, declared = self.session, [one for one in self._declared if one is not self._goodbye]
         self.session, self._declared, self._goodbye = session, [], None
         self.quickest_answer = math.inf

@@ -1,4 +1,4 @@
-"""When a link is opened anew: after a cut.
+"""When a link is opened anew: after a cut, first with the stream alone, and for the datagrams once all is well.
 
 Zenoh would come back by itself, but later than one who tries again and again at short intervals (opening.py), without
 the datagrams that were beside the stream, and with keys numbered anew, by which messages that come over two links are
@@ -36,10 +36,10 @@ class Renewal:
         self._tries = 0
         self.renewals = 0
 
-    def turn(self, now: float, *, silent: bool, answered: bool) -> bool:
+    def turn(self, now: float, *, silent: bool, answered: bool, busy: bool) -> bool:
         """`silent`: the stream brings nothing. `answered`: the server has just answered a question.
 
-        Whether the link has been opened anew since.
+        `busy`: what the link brings just now is waited for. Whether the link has been opened anew since.
         """
         self._datagrams.turn(now)
         renewed = self._link.renewed()
@@ -47,6 +47,8 @@ class Renewal:
             self.renewals += 1
             self._datagrams.renewed()
             log.info("the link was opened anew")
+        if self._link.owes_datagrams and not silent and not busy:
+            self._link.begin_renewal()
         self._judge(now, silent=silent, answered=answered)
         return renewed
 

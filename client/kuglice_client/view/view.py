@@ -173,7 +173,7 @@ class View(Closing):
             self._inquiry.ask(now)
         about = self._inquiry.answer()
         goes_on = about is not None and self.replica.overdue(about)
-        if self.renewal.turn(now, silent=silent, answered=goes_on):
+        if self.renewal.turn(now, silent=silent, answered=goes_on, busy=False):
             self.subscriptions.go_over(self.link.session)
         if about is not None and about.epoch != self.replica.about.epoch:
             log.warning("world %s was restarted: looked at again", self._keys.world)

@@ -12,6 +12,7 @@ from kuglice.protocol.endpoints import (
     check_hosts,
     host_and_port,
     is_loopback,
+    stream_alone,
     wants_datagrams,
 )
 from kuglice.protocol.exposure import refuse_exposed
@@ -120,5 +121,6 @@ __all__ = [
     "refuse_exposed",
     "server_configuration",
     "split",
+    "stream_alone",
     "wants_datagrams",
 ]

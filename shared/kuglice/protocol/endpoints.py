@@ -16,6 +16,7 @@ __all__ = [
     "host_and_port",
     "is_loopback",
     "locators",
+    "stream_alone",
     "unresolved",
     "wants_datagrams",
 ]
@@ -50,6 +51,11 @@ def as_written(links: Iterable[str]) -> list[str]:
 def wants_datagrams(endpoint: str) -> bool:
     """Whether it asks for datagrams beside the stream."""
     return endpoint.partition("/")[0] == BOTH
+
+
+def stream_alone(endpoint: str) -> str:
+    """The same place without the datagrams that it may ask for."""
+    return f"tcp/{endpoint.partition('/')[2]}" if wants_datagrams(endpoint) else endpoint
 
 
 def check_endpoints(endpoints: Iterable[str]) -> None:

@@ -20,6 +20,7 @@ class Kinds:
 
     kinds: list[str] = field(default_factory=lambda: ["tcp", "udp"])
     wants_datagrams: bool = True
+    owes_datagrams: bool = False
 
 
 @pytest.mark.parametrize(
@@ -50,3 +51,16 @@ def test_what_is_up_early_and_stays_is_not_worth_a_word(caplog):
         watch.turn(begin + tenths / 10)
     assert caplog.messages == []
     assert watch.up
+
+
+def test_datagrams_that_are_still_owed_are_not_missed(caplog):
+    caplog.set_level(logging.WARNING)
+    link = Kinds(["tcp"], owes_datagrams=True)
+    watch = DatagramWatch(link)
+    begin = time.monotonic()
+    watch.turn(begin + 60.0)
+    assert caplog.messages == []
+    assert not watch.missing
+    link.owes_datagrams = False
+    watch.turn(begin + 61.0)
+    assert watch.missing

@@ -28,19 +28,24 @@ class Link:
 
     def __init__(self) -> None:
         self.kinds = ["tcp"]
+        self.owes_datagrams = False
         self.begun = 0
         self._opening = False
+        self._opening_owes = False
 
     def begin_renewal(self) -> None:
-        self._opening = True
+        self._opening, self._opening_owes = True, False
         self.begun += 1
 
     def renew_if_lost(self) -> None:
         if not self.kinds:
             self.begin_renewal()
+            self._opening_owes = True
 
     def renewed(self) -> bool:
         opened, self._opening = self._opening, False
+        if opened:
+            self.kinds, self.owes_datagrams = ["tcp"], self._opening_owes
         return opened
 
 
@@ -56,10 +61,12 @@ class Time:
         self.renewal = Renewal(link, datagrams)
         self._turns = 0
 
-    def passes(self, seconds: float, *, silent: bool = False, answered: bool = False) -> None:
+    def passes(
+        self, seconds: float, *, silent: bool = False, answered: bool = False, busy: bool = False
+    ) -> None:
         for _ in range(round(seconds / STEP)):
             self._turns += 1
-            self.renewal.turn(100.0 + self._turns * STEP, silent=silent, answered=answered)
+            self.renewal.turn(100.0 + self._turns * STEP, silent=silent, answered=answered, busy=busy)
 
 
 def test_a_link_that_is_well_is_left_alone(datagrams):
@@ -101,4 +108,17 @@ def test_a_session_is_opened_anew_as_soon_as_it_has_no_link_any_more(datagrams):
     link = Link()
     link.kinds = []
     Time(link, datagrams).passes(1.0, silent=True)
-    assert link.begun >= 1
+    assert link.begun == 1
+    assert link.kinds == ["tcp"]
+
+
+def test_datagrams_that_are_owed_are_asked_for_once_nothing_else_is_waited_for(datagrams):
+    link = Link()
+    time = Time(link, datagrams)
+    link.kinds = []
+    time.passes(1.0, silent=True)
+    time.passes(1.0, busy=True)
+    assert link.begun == 1, "a session that is replaced loses what is under way"
+    time.passes(1.0)
+    assert link.begun == time.renewal.renewals == 2
+    assert not link.owes_datagrams
