@@ -116,7 +116,7 @@ def client(
 
     The world is the server's bit for bit. Without bot and name you are a spectator.
 
-    Ends with status 1 if any state differed from the server's.
+    Ends with status 1 if any state differed from the server's, or if none could be compared.
 
     Example: kuglice client --bot chaser --seconds 10 --render out/chaser.mp4
     """

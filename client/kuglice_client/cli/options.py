@@ -18,7 +18,8 @@ Seconds = Annotated[
 Wait = Annotated[
     float,
     typer.Option(
-        min=0.0, help="Seconds that joining may take: then it ends with an error that says what did not come."
+        min=0.0,
+        help="Seconds that joining may take: then it ends with an error that says what did not come. 0 for one try.",
     ),
 ]
 Render = Annotated[

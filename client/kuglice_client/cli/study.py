@@ -52,7 +52,7 @@ def study(  # noqa: PLR0917 - options
 
     Tick by tick, told second by second. Errors are how far balls were drawn from where the server had them, in radii,
     corrections that glide included. "predicted equal" is the share of frames whose predicted state had the server's
-    very bits. Ends with code 2 if the file is no study or damaged.
+    very bits. Ends with status 2 if the file is no study or damaged.
     """
     seen = Study.load(file)
     frames = list(seen.frames())

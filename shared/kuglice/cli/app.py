@@ -42,6 +42,8 @@ HELP = """Colliding balls in the plane: bit-equal on every machine, interactive,
 
 A SCENE is a TOML file, or the name of a built-in scene with parameters if you like: gas, arena,
 gas:n=2000,packing=0.5. `kuglice scenes` lists them.
+
+What cannot be done is said in one line, and ends with status 2.
 """
 
 

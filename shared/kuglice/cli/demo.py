@@ -43,7 +43,7 @@ def demo(
 
     All are processes of their own. The clients steer through one crowd of balls over the network, each on
     its own copy of the world. The last lines say whether every copy was equal to the server's in every
-    bit; the exit code is 1 if one was not.
+    bit. Ends with status 1 if one was not.
     """
     # However it is ended, the processes that it started are ended too.
     signal.signal(signal.SIGTERM, signal.default_int_handler)

@@ -47,7 +47,7 @@ def replay(
 ) -> None:
     """Run a recording again and compare every hash.
 
-    Ends with code 0 if all hashes are equal, with 1 if one differs, and then names the tick and the balls;
+    Ends with status 0 if all hashes are equal, with 1 if one differs, and then names the tick and the balls;
     with 3 if all are equal as far as the file goes, but the recording was cut off there.
     """
     recording = Replay.load(file)

@@ -172,8 +172,8 @@ def nobody_answers(configuration: dict[str, Any]) -> str:
     if unknown:
         return f"cannot connect to {where}: no address is known of a host {' or '.join(unknown)}"
     return (
-        f"cannot connect to {where}: nobody answers there; start one with `kuglice server SCENE`, or say with "
-        "--connect where one runs"
+        f"cannot connect to {where}: nobody answers there; start a server there (`kuglice server SCENE`), or say "
+        "with --connect where one, or a router, runs"
     )
 
 

@@ -29,8 +29,8 @@ def test_nobody_there_is_told_with_the_endpoint_as_it_was_written_and_what_to_do
         with pytest.raises(ProtocolError) as told:
             open_session(client_configuration([endpoint], timeout=0.2))
     assert str(told.value) == (
-        f"cannot connect to {endpoint}: nobody answers there; start one with `kuglice server SCENE`, or say with "
-        "--connect where one runs"
+        f"cannot connect to {endpoint}: nobody answers there; start a server there (`kuglice server SCENE`), or say "
+        "with --connect where one, or a router, runs"
     )
 
 
