@@ -34,7 +34,7 @@ class Credibility:
         self._keys = keys
         self._epoch = joined.epoch
         self._rate = joined.about.rate
-        self._tick, self._at = joined.about.tick, joined.told_at
+        self._tick, self._at = joined.told_tick, joined.told_at
         self._slack = SLACK_SECONDS + joined.round_trip
         self._in_doubt = False
         self._asked: Asked | None = None

@@ -6,6 +6,7 @@ snapshot and the first buffered tick is in the server's history, and everything 
 
 from __future__ import annotations
 
+import logging
 import time
 from dataclasses import dataclass
 
@@ -27,8 +28,12 @@ from kuglice_client.link import Asked, NotYetError, Waiting
 
 __all__ = ["Joined", "Who", "arrival", "find_world", "join"]
 
+log = logging.getLogger(__name__)
+
 SNAPSHOT_SECONDS = 30.0
 """For a state to arrive before it is asked for again: a large one takes its time on a thin link."""
+DOUBTED_SECONDS = 0.4
+"""An answer that took longer says little of which tick it is now: it may have come behind the state."""
 
 Who = tuple[str, str]
 """Name and session."""
@@ -51,8 +56,10 @@ class Joined:
     round_trip: float
     state_seconds: float
     """For which the state was on its way."""
+    told_tick: int
+    """The tick that the server said it was at."""
     told_at: float
-    """When `about`, with the tick that it was told at, had come; in seconds of the monotonic clock."""
+    """When that had come, in seconds of the monotonic clock."""
 
 
 def find_world(waiting: Waiting) -> str:
@@ -106,7 +113,7 @@ def _attempt(waiting: Waiting, keys: Keys, who: Who | None) -> Joined:
         raise NotYetError(f"world {keys.world} at {link.endpoints}: {error}") from error
     except ProtocolError as error:
         raise JoinError(f"{keys.about}: {error}") from error
-    told_at = time.monotonic()
+    told = _Told(about.tick, time.monotonic())
     if about.step_version != _core.STEP_VERSION:
         raise JoinError(
             f"step version {about.step_version} of the server (kuglice {about.version}): this client has "
@@ -120,6 +127,9 @@ def _attempt(waiting: Waiting, keys: Keys, who: Who | None) -> Joined:
     state_seconds = time.monotonic() - asked_at
     if snapshot.epoch != about.epoch:
         raise NotYetError(f"epoch {about.epoch} is over, {snapshot.epoch} has begun")
+    if told.at - asked_at > DOUBTED_SECONDS:
+        # Only now that nothing large is under way any more is the answer as old as the way is long.
+        told = _told_again(waiting, keys, about, before=told)
     try:
         scene = Scene.from_message(about.scene)
         model = Model.from_message(about.model)
@@ -136,8 +146,26 @@ def _attempt(waiting: Waiting, keys: Keys, who: Who | None) -> Joined:
         sequence,
         link.quickest_answer,
         state_seconds,
-        told_at,
+        told.tick,
+        told.at,
     )
+
+
+@dataclass(frozen=True)
+class _Told:
+    tick: int
+    at: float
+
+
+def _told_again(waiting: Waiting, keys: Keys, about: About, *, before: _Told) -> _Told:
+    """Which tick it is by a new answer, or as it was told `before` if none comes, or one of another run."""
+    try:
+        asked = waiting.link.ask(keys.status, None, timeout=waiting.answer_seconds())
+        status = decode(asked.wait(waiting.stop)[0], Status)
+    except (JoinError, ProtocolError) as error:
+        log.debug("%s", error)
+        return before
+    return _Told(status.tick, time.monotonic()) if status.epoch == about.epoch else before
 
 
 class _Admission:

@@ -93,7 +93,7 @@ class Replica:
         self.prediction = Prediction(joined.world, limit=max(4, round(PREDICTED_SECONDS * about.rate)))
         self.clock = Clock(
             rate=about.rate,
-            tick=about.tick,
+            tick=joined.told_tick,
             now=joined.told_at,
             round_trip=joined.round_trip,
             input_delay=settings.input_delay,
@@ -151,8 +151,8 @@ class Replica:
 
     def _told_by(self, now: float) -> float:
         """The tick that the stream should have come to by `now`, going by when the server told which tick it was."""
-        about = self.joined.about
-        return about.tick + (now - self.joined.told_at - ENTER_SLACK_SECONDS) * about.rate - 1.0
+        joined = self.joined
+        return joined.told_tick + (now - joined.told_at - ENTER_SLACK_SECONDS) * joined.about.rate - 1.0
 
     @property
     def over(self) -> bool:
