@@ -20,6 +20,7 @@ from kuglice.protocol import (
     Declared,
     Keys,
     Status,
+    UnreadDatagrams,
     ViewAbout,
     close_session,
     open_session,
@@ -97,6 +98,7 @@ class Server(Closing):
             self._inboxes = Inboxes(self._session, self._keys, counters=self.counters)
             self._loop = self._make_loop()
             self._answers = self._make_answers()
+            self._unread = UnreadDatagrams(settings.listen)
             undo.pop_all()
 
     def _make_publisher(self) -> Publisher:
@@ -226,6 +228,7 @@ class Server(Closing):
             self._regions.turn(self.world)
             self._now, self._balls = self.world.tick, self.world.count
             self._answers.ticked()
+            self._unread.turn()
             ticks = None if ticks is None else ticks - 1
             if each_tick is not None:
                 each_tick(self)

@@ -12,6 +12,7 @@ from kuglice.cli.logs import STDERR, log_to_stderr
 from kuglice.cli.stop import stop_on_signals
 from kuglice.errors import NetworkError, ProtocolError
 from kuglice.protocol import (
+    UnreadDatagrams,
     check_endpoints,
     check_hosts,
     client_configuration,
@@ -22,6 +23,8 @@ from kuglice.protocol import (
 )
 
 __all__ = ["register"]
+
+LOOK_SECONDS = 1.0
 
 
 def register(app: typer.Typer) -> None:
@@ -58,10 +61,12 @@ def router(
         refuse_exposed(ours)
     check_hosts((*ours, *theirs))
     session = open_session(server_configuration(listen=ours, connect=theirs))
+    unread = UnreadDatagrams(ours)
     try:
         _refuse_itself(session, theirs)
         STDERR.print(f"router from {', '.join(theirs)} to {', '.join(ours)}", highlight=False)
-        stop.wait()
+        while not stop.wait(LOOK_SECONDS):
+            unread.look()
     finally:
         close_session(session, [])
 

@@ -61,6 +61,7 @@ from kuglice.protocol.session import (
     open_session,
     server_configuration,
 )
+from kuglice.protocol.unread import UnreadDatagrams
 
 __all__ = [
     "ANY_EPOCH",
@@ -100,6 +101,7 @@ __all__ = [
     "StretchedTick",
     "Tick",
     "TickRange",
+    "UnreadDatagrams",
     "ViewAbout",
     "Whole",
     "check_endpoints",

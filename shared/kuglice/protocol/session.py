@@ -40,7 +40,7 @@ LINKS = 2
 OPEN_TIMEOUT_MS = 1500
 """How long a link that nobody answers on is tried: it may have been cut, or another one be there."""
 RETRY_MS = 200
-RECEIVING_THREADS = 16
+RECEIVING_THREADS = 32
 """A session that ends keeps one of the threads that receive for a round trip. By default there are two of them, and
 with both taken nobody's datagrams are read."""
 ACCEPTING_THREADS = 64
@@ -48,11 +48,19 @@ ACCEPTING_THREADS = 64
 ten seconds: of a client whose link is cut while it connects, or of a stranger who greets and vanishes. By default there
 is one.
 """
+LINK_THREADS = 32
+"""Sessions that end keep these in the same way, and these are who lets new links in. By default there is one; while it
+waits nobody can join, and a second datagram over a link that is not in yet stops the reading of all datagrams.
+"""
 MAX_MESSAGE_BYTES = MAX_WHOLE_BYTES + (64 << 10)
 """Of one that comes in, key and envelope included. Zenoh by itself puts together up to 1 GiB, and a ring keeps that
 many times over. No state needs more, be there ever so many balls: whatever grows with them comes in parts of a batch
 each. A larger one is dropped piece by piece as it comes, untold, and its link goes on.
 """
+THREADS = (
+    f"(rx: (worker_threads: {RECEIVING_THREADS}), acc: (worker_threads: {ACCEPTING_THREADS}), "
+    f"net: (worker_threads: {LINK_THREADS}))"
+)
 RUNTIME = "ZENOH_RUNTIME"
 """Read by Zenoh when the first session of a process is opened; what the user says there counts."""
 NEVER_MS = 24 * 3600 * 1000
@@ -142,9 +150,7 @@ def _configuration(
 
 def open_session(configuration: dict[str, Any]) -> zenoh.Session:
     """Open a session; raises ProtocolError, naming the endpoints, if that fails."""
-    os.environ.setdefault(
-        RUNTIME, f"(rx: (worker_threads: {RECEIVING_THREADS}), acc: (worker_threads: {ACCEPTING_THREADS}))"
-    )
+    os.environ.setdefault(RUNTIME, THREADS)
     try:
         return zenoh.open(zenoh.Config.from_json5(json.dumps(configuration)))
     except zenoh.ZError as error:

@@ -38,7 +38,7 @@ close_session(server, [])
 
 
 @pytest.mark.skipif(not os.path.isdir("/proc/self/task"), reason="threads have no names to read here")
-@pytest.mark.parametrize(("told", "threads"), [(None, 16), ("(rx: (worker_threads: 5))", 5)])
+@pytest.mark.parametrize(("told", "threads"), [(None, 32), ("(rx: (worker_threads: 5))", 5)])
 def test_a_session_receives_with_many_threads_unless_told_otherwise(told, threads):
     environment = {name: value for name, value in os.environ.items() if name != "ZENOH_RUNTIME"}
     if told is not None:
