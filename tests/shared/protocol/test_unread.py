@@ -1,4 +1,4 @@
-"""Datagrams that nobody reads are noticed by what waits in the socket; those that are read late are no reason to warn."""
+"""Datagrams that nobody reads are noticed by what waits in the socket; those that are read late are left alone."""
 
 from __future__ import annotations
 
@@ -62,7 +62,9 @@ def test_more_and_more_that_waits_is_unread_and_less_is_not(tmp_path):
 
     def look(waiting: int) -> bool:
         # 0x1D17 is 7447.
-        table.write_text(f"{HEADER}\n 1: 0100007F:1D17 00000000:0000 07 00000000:{waiting:08X} 00:00000000 0 0 0 1\n")
+        table.write_text(
+            f"{HEADER}\n 1: 0100007F:1D17 00000000:0000 07 00000000:{waiting:08X} 00:00000000 0 0 0 1\n"
+        )
         unread.look()
         return bool(unread.stuck)
 
