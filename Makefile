@@ -28,9 +28,10 @@ test: $(SETUP)
 lint: $(SETUP)
 	@bash .ci/lint
 
-## make bench   what a ball-step, a copy, a server costs, beside peers and targets; under ten minutes
+## make bench   what a ball-step, a copy, a server costs, beside peers and targets; bytes on the wire; ten minutes
 bench: $(SETUP) $(NUMBA)
 	@$(BIN)/kuglice bench
+	@$(BIN)/kuglice bench wire --seconds 3
 
 # A peer that is too large for everybody, and not there for every new Python: the bench says so and goes on without.
 $(NUMBA): $(SETUP)
