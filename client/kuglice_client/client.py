@@ -172,7 +172,8 @@ class Client(Closing):
         wrong = self.replica.reconciler.wrong_since is not None
         state = HashState(self.confirmed.state_hash, self.confirmed.tick, "different" if wrong else "equal")
         moment = interpolate(*self.replica.prediction.shown, alpha, state, nodes=nodes)
-        return replace(moment, position=self.screen.seen(moment.id, moment.position))
+        silent = self.replica.silent(time.monotonic())
+        return replace(moment, position=self.screen.seen(moment.id, moment.position), silent=silent)
 
     def close(self, timeout: float = 5.0) -> bool:
         """Leave. False if Zenoh did not finish within `timeout` seconds."""

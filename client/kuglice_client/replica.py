@@ -73,6 +73,7 @@ class Replica:
         self._lags_since: float | None = None
         self._entered = False
         self._step_seconds = 0.0
+        self._news_at = now
         self.credibility = Credibility(link, keys, joined)
         self.stream = Stream(link, joined, self.credibility, lose=settings.lose, totals=totals, now=now)
         self.follower = Follower(joined.world)
@@ -166,6 +167,10 @@ class Replica:
         """Whether something is asked for, or more is known than can be stepped through in a turn."""
         return self.healing.asking or self.follower.behind * self._step_seconds > CONFIRM_SECONDS
 
+    def silent(self, now: float) -> bool:
+        """Whether nothing has come for so long that what is drawn is a guess, neither by the stream nor when asked."""
+        return now - self._news_at > self.stream.silence_seconds
+
     @property
     def refused(self) -> str | None:
         """Why this run of the server will not have us any more, None while it will: joining anew is in vain."""
@@ -212,6 +217,7 @@ class Replica:
         return max(0.0, min(1.0, target - self.prediction.shown[1].tick))
 
     def _heard(self, message: Tick, now: float) -> None:
+        self._news_at = now
         self._screen.feel.heard(now)
         self.clock.heard(message.end, now)
         if self.player is not None:
@@ -223,6 +229,7 @@ class Replica:
         if self.player is not None:
             self.player.answered(history.acting(self.player.outbox.number), self.stream.heard_at)
         if silent:
+            self._news_at = now
             self.clock.heard(history.end, now)
             self._screen.feel.heard(now)
 

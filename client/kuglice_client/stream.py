@@ -42,7 +42,8 @@ class Stream:
         self._lose = lose
         self._totals = totals
         self._assembly = Assembly()
-        self._silence = max(SILENCE_SECONDS, SILENCE_TICKS / joined.about.rate)
+        self.silence_seconds = max(SILENCE_SECONDS, SILENCE_TICKS / joined.about.rate)
+        """More than a server that keeps its rate is ever silent for."""
         self._stalled = False
         self.heard_at = now
         """When the last tick of this run came."""
@@ -52,7 +53,7 @@ class Stream:
 
     def silent(self, now: float) -> bool:
         """Whether nothing has come for so long that the stream may have stopped while the server goes on."""
-        return now - self.heard_at > self._silence
+        return now - self.heard_at > self.silence_seconds
 
     def snapshots(self) -> Iterator[Whole]:
         """Whole snapshots of this run that came since the last call."""

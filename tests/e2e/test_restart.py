@@ -26,11 +26,14 @@ def test_a_restarted_server_is_noticed_and_joined(start, scene, endpoint, tmp_pa
 
         first = client.replica.joined.epoch
         a_second()
+        assert not client.moment(1.0).silent
         before.kill()
+        until(lambda: turned() and client.moment(1.0).silent, what="the picture says that nothing comes")
         after = start(*arguments, tmp_path / "after.kuglice")
         until(lambda: turned() and client.replica.joined.epoch != first, what="the new epoch is noticed")
         assert client.replica.joined.epoch > first
         a_second()
+        assert not client.moment(1.0).silent
         until(lambda: turned() and client.own is not None, what="a ball in the new world")
         summary = client.summary()
     assert summary["rejoins"] == 1

@@ -29,6 +29,7 @@ def test_ticks_are_asked_for_where_the_stream_brings_none_any_more(server, endpo
             lambda: turned(lambda: client.replica.player.outbox.accepted == 1), what="what acts is known to"
         )
         until(lambda: turned(lambda: client.confirmed.tick > last_heard + 120), what="it goes on")
+        assert not client.moment(1.0).silent, "what is asked for is news as well"
         lead = client.replica.prediction.world.tick - client.confirmed.tick
         summary = client.summary()
     server.signal(2)

@@ -7,8 +7,10 @@ from __future__ import annotations
 
 import json
 import signal
+import time
 
 from e2e.processes import Command, until
+from kuglice_client.view import View, ViewSettings
 
 
 def ended(view: Command) -> dict:
@@ -39,3 +41,15 @@ def test_a_view_whose_server_is_gone_for_good_ends_when_told_to(start, endpoint,
     figures = ended(view)
     assert figures["rejoins"] == 0
     assert figures["links"] == ""
+
+
+def test_the_picture_of_a_view_says_that_nothing_comes(endpoint, server):
+    with View(ViewSettings((0.0, 0.0, 10.0, 10.0), connect=(endpoint,), wait=60.0)) as view:
+
+        def shown(*, silent: bool) -> bool:
+            view.turn(time.monotonic())
+            return view.moment(1.0).silent is silent
+
+        until(lambda: shown(silent=False) and view.replica.updates > 0, what="news")
+        server.kill()
+        until(lambda: shown(silent=True), what="the picture says that nothing comes")

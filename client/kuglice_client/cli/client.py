@@ -43,6 +43,8 @@ __all__ = ["register"]
 
 OF_PLAYERS = frozenset({"name", "number", "inputs_accepted", "inputs_refused", "inputs_late"})
 """Figures that a spectator has none of: programs get them empty, people not at all."""
+OF_PROGRAMS = frozenset({"recovered_at_monotonic"})
+"""Of what a game felt like: readings of a clock that says nothing to people."""
 
 
 def register(app: typer.Typer) -> None:
@@ -161,6 +163,7 @@ def client(
     else:
         watching = settings.name is None
         shown = {name: value for name, value in summary.items() if not (watching and name in OF_PLAYERS)}
+        shown["feel"] = {name: value for name, value in summary["feel"].items() if name not in OF_PROGRAMS}
         print_groups(title, shown, CLIENT)
     if not summary["agreed"]:
         compared = summary["hashes_checked"] > 0

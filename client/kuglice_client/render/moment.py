@@ -17,8 +17,8 @@ __all__ = ["HashState", "Moment", "Verdict", "Window", "between"]
 Floats = NDArray[np.float64]
 Ids = NDArray[np.uint64]
 
-Verdict = Literal["local", "waiting", "equal", "different"]
-"""Nobody to compare with; not compared yet; equal to the server's; different from it."""
+Verdict = Literal["local", "equal", "different"]
+"""Nobody to compare with; equal to the server's; different from it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +57,8 @@ class Moment:
     hash_state: HashState | None = None
     nodes: Floats | None = None
     """(k, 4) left, bottom, right, top of quadtree nodes."""
+    silent: bool = False
+    """Whether the server has told nothing for so long that what is shown is a guess."""
     window: Window | None = None
     """What the picture is a part of; None: it is the whole box."""
 

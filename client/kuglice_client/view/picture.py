@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -35,6 +36,7 @@ def moment(view: View, alpha: float) -> Moment:
         time=world.time - (1 - alpha) / world.scene.tick_rate,
         fixed=np.isinf(world.mass[near]),
         players={ball: client for client, ball in world.players if ball is not None},
+        silent=view.replica.silent(time.monotonic()),
         window=Window(view.rectangle, world.scene.box, world.scene.walls),
     )
 

@@ -166,8 +166,19 @@ def test_the_verdict_is_told_by_colour():
     assert green > red + 60
     red, green, _ = hue("different")
     assert red > green + 60
-    red, green, blue = hue("waiting")
+
+
+def test_a_silent_server_is_told_by_colour_and_words_and_hides_no_difference():
+    def seen(verdict, *, silent):
+        return overlay(hash_state=HashState(9, 0, verdict), silent=silent)[1]
+
+    told = seen("equal", silent=True)
+    dot = told[50:90, 20:60].reshape(-1, 3).astype(int)
+    red, green, blue = dot[(dot.max(axis=1) - dot.min(axis=1)).argmax()]
     assert red > blue + 60 < green
+    assert (told != seen("equal", silent=False)).any(axis=2)[:, 100:].any(), "other words, too"
+    assert (seen("different", silent=True) == seen("different", silent=False)).all()
+    assert (overlay(silent=True)[1] != overlay(silent=False)[1]).any(), "a view has no hash, and says it as well"
 
 
 def test_texts_are_clipped_to_small_pictures():

@@ -1,4 +1,4 @@
-"""Tick, time, number of balls, and whether the state is the server's."""
+"""Tick, time, number of balls, and whether the state is the server's, or the server is silent."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ __all__ = ["draw_tick"]
 
 VERDICTS: dict[Verdict, tuple[str, tuple[int, int, int]]] = {
     "local": ("", (150, 164, 190)),
-    "waiting": ("waiting", (255, 190, 70)),
     "equal": ("equal to the server's", (84, 220, 140)),
     "different": ("DIFFERENT", (255, 84, 84)),
 }
+SILENT = ("no news from the server", (255, 190, 70))
 PANEL = (7, 9, 13, 205)
 TEXT = (226, 232, 243)
 FAINT = (140, 152, 174)
@@ -39,7 +39,10 @@ def draw_tick(pixels: Pixels, stage: Stage, moment: Moment) -> None:
         (f"{len(moment.id):,} ball{'' if len(moment.id) == 1 else 's'}", FAINT),
     ]
     if moment.hash_state is not None:
-        words += _hash_words(moment, moment.hash_state)
+        words.append((_hash_word(moment, moment.hash_state), TEXT))
+    verdict = _verdict(moment)
+    if verdict[0]:
+        words.append(verdict)
     gap = 1.1 * font.size
     length = sum(font.length(word) for word, _ in words) + gap * (len(words) - 1)
     thick = 2.0 * font.size
@@ -51,7 +54,7 @@ def draw_tick(pixels: Pixels, stage: Stage, moment: Moment) -> None:
     _core.draw_segments(pixels, *ends, np.array([thick]), np.array([PANEL], dtype=np.uint8))
     at = left
     if moment.hash_state is not None:
-        colour = np.array([[*VERDICTS[moment.hash_state.verdict][1], 255]], dtype=np.uint8)
+        colour = np.array([[*verdict[1], 255]], dtype=np.uint8)
         _core.draw_discs(pixels, np.array([[at + dot, middle]]), np.array([dot]), colour)
         at += 2 * dot + 0.5 * font.size
     for word, ink in words:
@@ -59,9 +62,15 @@ def draw_tick(pixels: Pixels, stage: Stage, moment: Moment) -> None:
         at += font.length(word) + gap
 
 
-def _hash_words(moment: Moment, state: HashState) -> list[tuple[str, tuple[int, int, int]]]:
-    verdict, colour = VERDICTS[state.verdict]
+def _hash_word(moment: Moment, state: HashState) -> str:
     digits = f"{state.hash:016x}"
     of = "" if state.tick == moment.tick else f" at {state.tick:,}"
-    words = [(f"hash {digits[:8]} {digits[8:]}{of}", TEXT)]
-    return [*words, (verdict, colour)] if verdict else words
+    return f"hash {digits[:8]} {digits[8:]}{of}"
+
+
+def _verdict(moment: Moment) -> tuple[str, tuple[int, int, int]]:
+    state = moment.hash_state
+    # A difference was found and stays true; that all was equal says nothing of what the server has done since.
+    if moment.silent and (state is None or state.verdict != "different"):
+        return SILENT
+    return VERDICTS["local" if state is None else state.verdict]
