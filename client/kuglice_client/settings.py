@@ -57,7 +57,7 @@ class ClientSettings:
         if self.bot is not None and self.name is None:
             raise ProtocolError(f"bot {self.bot!r}: needs a client name to play under")
         if not self.wait >= 0:
-            raise ProtocolError(f"wait {self.wait}: must be at least 0 seconds")
+            raise ProtocolError(f"wait {self.wait:g}: must be at least 0 seconds")
         if not 0 <= self.input_delay <= MAX_INPUT_DELAY:
             raise ProtocolError(
                 f"input delay {self.input_delay}: must be within 0 and {MAX_INPUT_DELAY} ticks"

@@ -156,7 +156,7 @@ def test_the_reason_told_is_one_that_had_time_to_be_another():
 
 @pytest.mark.parametrize("wait", [-1.0, float("nan")])
 def test_a_wait_that_is_none_is_refused(wait):
-    with pytest.raises(ProtocolError, match=f"wait {wait}: must be at least 0 seconds"):
+    with pytest.raises(ProtocolError, match=f"wait {wait:g}: must be at least 0 seconds"):
         ClientSettings(wait=wait)
-    with pytest.raises(ProtocolError, match=f"wait {wait}: must be at least 0 seconds"):
+    with pytest.raises(ProtocolError, match=f"wait {wait:g}: must be at least 0 seconds"):
         ViewSettings((0.0, 0.0, 1.0, 1.0), wait=wait)

@@ -36,11 +36,11 @@ class ViewSettings:
             check_name("world", self.world)
         check_rectangle(self.rectangle)
         if self.margin is not None and not 0 <= self.margin < math.inf:
-            raise ProtocolError(f"margin {self.margin}: must be at least 0 and finite")
+            raise ProtocolError(f"margin {self.margin:g}: must be at least 0 and finite")
         if self.budget is not None and not self.budget > 0:
-            raise ProtocolError(f"budget {self.budget}: must be above 0 bytes per second")
+            raise ProtocolError(f"budget {self.budget:g}: must be above 0 bytes per second")
         if not self.wait >= 0:
-            raise ProtocolError(f"wait {self.wait}: must be at least 0 seconds")
+            raise ProtocolError(f"wait {self.wait:g}: must be at least 0 seconds")
 
 
 def check_rectangle(rectangle: Rectangle) -> Rectangle:

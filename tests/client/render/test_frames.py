@@ -178,7 +178,9 @@ def test_a_silent_server_is_told_by_colour_and_words_and_hides_no_difference():
     assert red > blue + 60 < green
     assert (told != seen("equal", silent=False)).any(axis=2)[:, 100:].any(), "other words, too"
     assert (seen("different", silent=True) == seen("different", silent=False)).all()
-    assert (overlay(silent=True)[1] != overlay(silent=False)[1]).any(), "a view has no hash, and says it as well"
+    assert (overlay(silent=True)[1] != overlay(silent=False)[1]).any(), (
+        "a view has no hash, and says it as well"
+    )
 
 
 def test_texts_are_clipped_to_small_pictures():

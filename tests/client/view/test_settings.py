@@ -31,5 +31,5 @@ def test_what_is_none_is_refused_with_its_bound(text, words):
 
 @pytest.mark.parametrize(("setting", "value"), [("margin", -1.0), ("budget", 0.0)])
 def test_numbers_that_cannot_be_are_refused_by_name(setting, value):
-    with pytest.raises(ProtocolError, match=f"{setting} {value}"):
+    with pytest.raises(ProtocolError, match=f"{setting} {value:g}: must be"):
         ViewSettings((0.0, 0.0, 1.0, 1.0), **{setting: value})
