@@ -28,7 +28,7 @@ test: $(SETUP)
 lint: $(SETUP)
 	@bash .ci/lint
 
-## make bench   what a ball-step, a copy, a server costs, beside peers and targets; bytes on the wire; ten minutes
+## make bench   what a ball-step, a copy, a server costs, beside peers and targets; bytes on the wire; some minutes
 bench: $(SETUP) $(NUMBA)
 	@$(BIN)/kuglice bench
 	@$(BIN)/kuglice bench wire --seconds 3
